@@ -21,7 +21,7 @@
 #include "app/world/world_explore.hpp"
 #include "base/assets.hpp"
 #include "base/try.hpp"
-#include "desk/draw/pictures.hpp"
+#include "desk/draw/picture_folder.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "devices/haptic/wand_file.hpp"
 #include "scene/vrml_world.hpp"

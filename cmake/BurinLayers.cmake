@@ -24,16 +24,17 @@ burin_forbid(bodies ${vulkan_headers} thread future)
 burin_forbid(record ${vulkan_headers})
 burin_forbid(document ${vulkan_headers})
 burin_forbid(toolbox ${vulkan_headers})
+burin_forbid(workpiece ${vulkan_headers})
 burin_forbid(sculpt ${vulkan_headers})
 burin_forbid(session ${vulkan_headers})
 burin_forbid(shaders/shared ${vulkan_headers} iostream fstream)
 # Only window/ knows the window library. (desk reaches windows through its headers, which show nothing of it.)
-foreach(folder base geometry devices haptics scene record document wall picture gpu compute renderer toolbox sculpt
-    bodies session desk study activities bench app)
+foreach(folder base geometry devices haptics scene record document wall picture gpu compute renderer toolbox
+    workpiece sculpt bodies session desk study activities bench app)
   burin_forbid(${folder} GLFW)
 endforeach()
 # Only desk/panel/ knows the panel's toolkit; the renderer paints plain triangles.
 foreach(folder base geometry devices haptics scene record document wall picture gpu compute renderer window toolbox
-    sculpt bodies session study activities bench app)
+    workpiece sculpt bodies session study activities bench app)
   burin_forbid(${folder} imgui)
 endforeach()

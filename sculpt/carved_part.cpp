@@ -11,7 +11,7 @@
 #include "compute/tools/apply.hpp"
 #include "geometry/files/mesh_export.hpp"
 #include "scene/scene_changes.hpp"
-#include "sculpt/workpiece.hpp"
+#include "sculpt/load_workpiece.hpp"
 #include "toolbox/tool_mesh.hpp"
 
 namespace burin::sculpt {
@@ -19,7 +19,7 @@ namespace {
 
 // Finishes and writes the mesh on a worker of its own, so that carving keeps its pool.
 scene::ExportOutcome export_surface(const compute::Surface& surface, const compute::Solid& solid,
-                                    const ExportSurface& wanted) {
+                                    const workpiece::ExportSurface& wanted) {
     const std::string& name = wanted.name.empty() ? wanted.path : wanted.name;
     scene::ExportOutcome outcome{"", wanted.path, wanted.asked_by};
     const auto ended = [&](std::string message) {
@@ -171,7 +171,7 @@ void CarvedPart::drop_invalid(Carver& carver, std::vector<compute::ToolSweep>& s
 
 // Tells once a stroke that material was added beyond the lattice, where none can be.
 void CarvedPart::note_border(Carver& carver, std::span<const compute::ToolSweep> sweeps) {
-    const Box room = lattice_bounds(sculpture_.surface().lattice());
+    const Box room = workpiece::lattice_bounds(sculpture_.surface().lattice());
     const auto leaves = [&](const compute::ToolSweep& sweep) {
         const Vec3 least(toolbox::size_of(sweep.shape));
         return sweep.operation == compute::Operation::fill &&
@@ -218,10 +218,12 @@ std::optional<scene::SurfaceUpdate> CarvedPart::take_surface_update() {
 
 // ---- Orders
 
-void CarvedPart::order(const SculptOrder& order) {
-    const bool walks = std::holds_alternative<UndoStroke>(order) || std::holds_alternative<RedoStroke>(order);
-    const bool writes = std::holds_alternative<ExportSurface>(order) || std::holds_alternative<SaveScene>(order);
-    const bool forgets = std::holds_alternative<ForgetUndone>(order);
+void CarvedPart::order(const workpiece::CarveOrder& order) {
+    const bool walks =
+        std::holds_alternative<workpiece::UndoStroke>(order) || std::holds_alternative<workpiece::RedoStroke>(order);
+    const bool writes =
+        std::holds_alternative<workpiece::ExportSurface>(order) || std::holds_alternative<workpiece::SaveScene>(order);
+    const bool forgets = std::holds_alternative<workpiece::ForgetUndone>(order);
     const bool follows = !waiting_.empty() && (writes || forgets);
     if (follows || (walks && (pressed() || !waiting_.empty()))) {
         waiting_.push_back(order);
@@ -237,12 +239,12 @@ void CarvedPart::carry_out_waiting(Nanoseconds now_ns) {
     if (!waiting_since_ns_) waiting_since_ns_ = now_ns;
     if (pressed() && now_ns - *waiting_since_ns_ < kMostWait_ns) return;
     waiting_since_ns_.reset();
-    for (const SculptOrder& one : std::exchange(waiting_, {}))
+    for (const workpiece::CarveOrder& one : std::exchange(waiting_, {}))
         std::visit([this](const auto& what) { carry_out(what); }, one);
     status_changed_ = true;
 }
 
-void CarvedPart::order(const UseTool& use, std::size_t hand) {
+void CarvedPart::order(const workpiece::UseTool& use, std::size_t hand) {
     Carver* carver = carver_of(hand);
     if (carver == nullptr) {
         const double cell_m = sculpture_.surface().lattice().spacing_m;
@@ -252,7 +254,7 @@ void CarvedPart::order(const UseTool& use, std::size_t hand) {
     status_changed_ = true;
 }
 
-void CarvedPart::use_tool(Carver& carver, const UseTool& use) {
+void CarvedPart::use_tool(Carver& carver, const workpiece::UseTool& use) {
     const Result<std::uint8_t> material = sculpture_.add_material(use.material);
     if (!material) return notify(material.error().line());
     toolbox::Tool tool = use.tool;
@@ -265,7 +267,7 @@ void CarvedPart::use_tool(Carver& carver, const UseTool& use) {
     carver.reader.use_tool(tool, use.hardness_Ns_per_m3);
 }
 
-void CarvedPart::carry_out(const UndoStroke&) {
+void CarvedPart::carry_out(const workpiece::UndoStroke&) {
     sculpture_.end_stroke();
     ++edits_;
     ++walked_;
@@ -274,7 +276,7 @@ void CarvedPart::carry_out(const UndoStroke&) {
     if (*undone == 0) notify("there is no stroke to undo");
 }
 
-void CarvedPart::carry_out(const RedoStroke&) {
+void CarvedPart::carry_out(const workpiece::RedoStroke&) {
     ++edits_;
     ++walked_;
     const Result<std::size_t> redone = sculpture_.redo(1);
@@ -282,7 +284,7 @@ void CarvedPart::carry_out(const RedoStroke&) {
     if (*redone == 0) notify("there is no stroke to redo");
 }
 
-void CarvedPart::carry_out(const ForgetUndone&) {
+void CarvedPart::carry_out(const workpiece::ForgetUndone&) {
     if (compute::History* const history = sculpture_.history()) history->forget_undone();
 }
 
@@ -299,14 +301,14 @@ scene::PartSteps CarvedPart::undo_steps() const {
 
 void CarvedPart::go(scene::StepWay way) {
     switch (way) {
-        case scene::StepWay::back: return order(UndoStroke{});
-        case scene::StepWay::forward: return order(RedoStroke{});
-        case scene::StepWay::forget: return order(ForgetUndone{});
+        case scene::StepWay::back: return order(workpiece::UndoStroke{});
+        case scene::StepWay::forward: return order(workpiece::RedoStroke{});
+        case scene::StepWay::forget: return order(workpiece::ForgetUndone{});
     }
 }
 
 // Copies the surface and the rays: tiles are shared, so the rays are the only large part of the copy.
-void CarvedPart::carry_out(const ExportSurface& wanted) {
+void CarvedPart::carry_out(const workpiece::ExportSurface& wanted) {
     const auto refuse = [&](const Error& why) { exports_.push_back({why.line(), wanted.path, wanted.asked_by}); };
     if (export_.valid()) return refuse({"an export is under way", "", "wait for it to end"});
     if (const auto ok = check_precision(wanted.path, sculpture_.surface().lattice()); !ok) return refuse(ok.error());
@@ -316,13 +318,13 @@ void CarvedPart::carry_out(const ExportSurface& wanted) {
 }
 
 // A save that fails leaves the journal with all that it should have saved.
-void CarvedPart::carry_out(const SaveScene& wanted) {
+void CarvedPart::carry_out(const workpiece::SaveScene& wanted) {
     sculpture_.end_stroke();
     tell_journal();
     if (wanted.save) wanted.save();
 }
 
-void CarvedPart::carry_out(const LightFrom& from) {
+void CarvedPart::carry_out(const workpiece::LightFrom& from) {
     if (const auto kept = sculpture_.keep_light(from.lamp_object); !kept) notify(kept.error().line());
 }
 

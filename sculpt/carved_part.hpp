@@ -19,16 +19,14 @@
 #include <vector>
 
 #include "scene/drawn_change.hpp"
-#include "scene/scene_part.hpp"
-#include "scene/surface_update.hpp"
 #include "sculpt/finishing.hpp"
-#include "sculpt/sculpt_order.hpp"
 #include "sculpt/sculpture.hpp"
 #include "sculpt/stroke_reader.hpp"
+#include "workpiece/workpiece.hpp"
 
 namespace burin::sculpt {
 
-class CarvedPart final : public scene::ScenePart {
+class CarvedPart final : public workpiece::WorkpiecePart {
 public:
     // Tiles baked in one update: few while the tool works, more while it rests.
     static constexpr std::size_t kLitWorking = 2, kLitResting = 16;
@@ -46,25 +44,15 @@ public:
                std::optional<std::size_t> undo_bytes, std::size_t hand = 0);
     ~CarvedPart() override;
 
-    // Tells what has changed, as pages (sculpt/saved_solid.hpp), when a stroke ends, when one is undone, and meanwhile
-    // every kJournal_ns. Before the first update.
-    using TakeChange = std::function<void(scene::Pages)>;
-    void keep_journal(TakeChange take);
-    // Returns which state the work is in (compute::History::state); 0 without a history.
-    [[nodiscard]] std::uint64_t state() const;
-    // Puts all of the solid into the pages, after the journal was told of what it holds. Returns false, and does
-    // nothing, while a stroke goes on.
-    [[nodiscard]] bool copy(scene::Pages& pages);
-
-    // Carries out an order. One that fails leaves the solid as it was and a message in the next surface update. A hand
-    // comes after the cursor: undo and redo that are asked for while a button is still down wait for the stroke's end,
-    // up to kMostWait_ns, and so do an export and a save behind them.
-    void order(const SculptOrder& order);
-    // Gives a hand a tool, likewise.
-    void order(const UseTool& use, std::size_t hand);
-    // Returns the radius of a ball about a hand's tool that holds the tool and what the tick looks at around it.
+    // WorkpiecePart. Undo and redo that wait for a stroke's end wait up to kMostWait_ns; a journal is told every
+    // kJournal_ns while a stroke goes on.
+    void keep_journal(TakeChange take) override;
+    [[nodiscard]] std::uint64_t state() const override;
+    [[nodiscard]] bool copy(scene::Pages& pages) override;
+    void order(const workpiece::CarveOrder& order) override;
+    void order(const workpiece::UseTool& use, std::size_t hand) override;
     [[nodiscard]] double around_m() const { return carvers_.front().reader.around_m(); }
-    [[nodiscard]] double around_m(std::size_t hand) const;
+    [[nodiscard]] double around_m(std::size_t hand) const override;
 
     // ScenePart. Each release of a button ends a stroke, which is what one undo takes back. Fails when the engine
     // does. A repeated update waits for an export that the recorded one found complete. finish() waits for the export
@@ -84,8 +72,7 @@ public:
 
     // As a scene::SurfaceChange.
     void take_changes(scene::SceneChanges& changes) override;
-    // Returns nullopt when nothing has changed.
-    [[nodiscard]] std::optional<scene::SurfaceUpdate> take_surface_update();
+    [[nodiscard]] std::optional<scene::SurfaceUpdate> take_surface_update() override;
 
 private:
     // A hand that carves.
@@ -99,16 +86,16 @@ private:
         bool said_border = false;  // and that what is added ends at the border of the room
     };
     void carry_out_waiting(Nanoseconds now_ns);
-    void carry_out(const UseTool& use) { use_tool(carvers_.front(), use); }
-    void carry_out(const MirrorStrokes& with) { sculpture_.mirror(with.mirror); }
-    void carry_out(const UndoStroke&);
-    void carry_out(const RedoStroke&);
-    void carry_out(const ForgetUndone&);
-    void carry_out(const ExportSurface& wanted);
-    void carry_out(const LightFrom& from);
-    void carry_out(const SaveScene& wanted);
+    void carry_out(const workpiece::UseTool& use) { use_tool(carvers_.front(), use); }
+    void carry_out(const workpiece::MirrorStrokes& with) { sculpture_.mirror(with.mirror); }
+    void carry_out(const workpiece::UndoStroke&);
+    void carry_out(const workpiece::RedoStroke&);
+    void carry_out(const workpiece::ForgetUndone&);
+    void carry_out(const workpiece::ExportSurface& wanted);
+    void carry_out(const workpiece::LightFrom& from);
+    void carry_out(const workpiece::SaveScene& wanted);
     void tell_journal();
-    void use_tool(Carver& carver, const UseTool& use);
+    void use_tool(Carver& carver, const workpiece::UseTool& use);
     [[nodiscard]] Result<void> carve(Carver& carver);
     void note_border(Carver& carver, std::span<const compute::ToolSweep> sweeps);
     void drop_invalid(Carver& carver, std::vector<compute::ToolSweep>& sweeps);
@@ -121,12 +108,12 @@ private:
     Sculpture& sculpture_;
     std::vector<Carver> carvers_;  // at least one, in the order in which they were given tools
     bool keeps_history_;
-    bool lags_ = false;                 // what a device has not done yet is left to a later update
-    std::uint32_t edits_ = 0;           // LocalSurface::tiles_edits
-    bool stroke_open_ = false;          // a button was down at the end of the last update
-    bool status_changed_ = true;        // something other than tiles and messages has to be reported
-    bool busy_ = true;                  // there was something to report after the last update
-    std::vector<SculptOrder> waiting_;  // for the end of a stroke
+    bool lags_ = false;                           // what a device has not done yet is left to a later update
+    std::uint32_t edits_ = 0;                     // LocalSurface::tiles_edits
+    bool stroke_open_ = false;                    // a button was down at the end of the last update
+    bool status_changed_ = true;                  // something other than tiles and messages has to be reported
+    bool busy_ = true;                            // there was something to report after the last update
+    std::vector<workpiece::CarveOrder> waiting_;  // for the end of a stroke
     std::optional<Nanoseconds> waiting_since_ns_;
     std::uint64_t walked_ = 0;  // PartSteps::walked
     TakeChange journal_;        // null: nobody keeps one

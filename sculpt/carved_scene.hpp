@@ -22,7 +22,7 @@ public:
     // Sets where the tool is before the first sample.
     void start_at(const Vec3& position_object) { service_.start_at(0, position_object); }
     // Carries out an order; another tool counts from the next update on.
-    void order(const SculptOrder& order) {
+    void order(const workpiece::CarveOrder& order) {
         part_.order(order);
         service_.use_probe(0, part_.around_m());
     }

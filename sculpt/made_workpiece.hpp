@@ -7,26 +7,27 @@
 #include <string>
 
 #include "compute/engine/chosen_engine.hpp"
+#include "sculpt/load_workpiece.hpp"
 #include "sculpt/sculpture.hpp"
-#include "sculpt/workpiece.hpp"
 
 namespace burin::sculpt {
 
 struct MadeWorkpiece {
-    std::unique_ptr<WorkerPool> pool;  // of the carving, which works with it
-    LoadedWorkpiece loaded;            // its solid is the carving's
+    std::unique_ptr<WorkerPool> pool;   // of the carving, which works with it
+    workpiece::LoadedWorkpiece loaded;  // its solid is the carving's
     compute::Lattice lattice;
     std::unique_ptr<Sculpture> carving;
 };
 
 // Loads the workpiece and makes it ready; threads: of the pool, as WorkerPool counts them.
-[[nodiscard]] Result<MadeWorkpiece> make_workpiece(const WorkpieceOptions& options,
+[[nodiscard]] Result<MadeWorkpiece> make_workpiece(const workpiece::WorkpieceOptions& options,
                                                    const compute::EngineMaker& make_engine, unsigned threads,
-                                                   const LoadWatch& watch = {});
+                                                   const workpiece::LoadWatch& watch = {});
 
 // Makes a workpiece that is there ready; the pool is the one that it was loaded with, or another.
-[[nodiscard]] Result<MadeWorkpiece> ready_to_carve(LoadedWorkpiece loaded, const compute::EngineMaker& make_engine,
-                                                   std::unique_ptr<WorkerPool> pool, const LoadWatch& watch = {},
-                                                   double from = 0.0);
+[[nodiscard]] Result<MadeWorkpiece> ready_to_carve(workpiece::LoadedWorkpiece loaded,
+                                                   const compute::EngineMaker& make_engine,
+                                                   std::unique_ptr<WorkerPool> pool,
+                                                   const workpiece::LoadWatch& watch = {}, double from = 0.0);
 
 }  // namespace burin::sculpt

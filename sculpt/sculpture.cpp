@@ -155,8 +155,8 @@ void Sculpture::follow_engine() {
 }
 
 void Sculpture::copy(scene::Pages& pages) const {
-    save_solid(engine_->solid(), ChangedPages(engine_->solid().lattice), pages);
-    if (history_) copy_steps(*history_, kMostCopiedSteps_bytes, pages);
+    workpiece::save_solid(engine_->solid(), workpiece::ChangedPages(engine_->solid().lattice), pages);
+    if (history_) workpiece::copy_steps(*history_, kMostCopiedSteps_bytes, pages);
 }
 
 bool Sculpture::take_change(scene::Pages& pages) {
@@ -175,8 +175,8 @@ void Sculpture::is_saved() {
 Result<void> Sculpture::save(scene::Pages& pages) {
     end_stroke();
     if (pages.whole) unsaved_.note_all();
-    save_solid(engine_->solid(), unsaved_, pages);
-    if (history_) save_steps(*history_, pages);
+    workpiece::save_solid(engine_->solid(), unsaved_, pages);
+    if (history_) workpiece::save_steps(*history_, pages);
     unsaved_.clear();
     return {};
 }

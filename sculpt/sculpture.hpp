@@ -22,9 +22,9 @@
 #include "compute/light/surface_light.hpp"
 #include "compute/mesher/surface.hpp"
 #include "compute/tools/apply.hpp"
-#include "sculpt/saved_changes.hpp"
-#include "sculpt/saved_solid.hpp"
 #include "sculpt/stroke_mirror.hpp"
+#include "workpiece/saved_changes.hpp"
+#include "workpiece/saved_solid.hpp"
 
 namespace burin::sculpt {
 
@@ -78,7 +78,7 @@ public:
     [[nodiscard]] Result<std::size_t> undo(std::size_t strokes);
     [[nodiscard]] Result<std::size_t> redo(std::size_t strokes);
     // Puts the solid into the pages: all of it, or what has changed since the last call, as they ask
-    // (sculpt/saved_solid.hpp). Ends the stroke that is open, so that undo goes to what was saved.
+    // (workpiece/saved_solid.hpp). Ends the stroke that is open, so that undo goes to what was saved.
     [[nodiscard]] Result<void> save(scene::Pages& pages);
     // Says that the solid, and its history where it has one, is as a document holds it: save() gives what changes.
     void is_saved();
@@ -131,8 +131,8 @@ private:
     std::optional<compute::History> history_;
     std::optional<compute::SurfaceLight> light_;
     std::vector<bool> tile_changed_;
-    ChangedPages unsaved_;
-    std::optional<ChangedRays> noted_;
+    workpiece::ChangedPages unsaved_;
+    std::optional<workpiece::ChangedRays> noted_;
     std::deque<scene::Pages> noted_changes_;  // that nobody has taken
     SculptFigures figures_;
     double initial_volume_m3_ = 0.0;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "toolbox/tool_mesh.hpp"
+#include "workpiece/carve_order.hpp"
 
 namespace burin::sculpt {
 namespace {
@@ -55,7 +56,7 @@ SweptSamples StrokeReader::read() {
         working_ = point.has_value() && !is_coming_down(tick);
         if (swept.stroke_ended && on_its_way_object_)
             run.push_back(*on_its_way_object_);  // a click: no time to come down
-        if (!pressed_ || (tick.sample.buttons & kOverAir) != 0) {
+        if (!pressed_ || (tick.sample.buttons & workpiece::kOverAir) != 0) {
             is_down_ = false;
             depth_m_.reset();
             on_its_way_object_.reset();
@@ -95,7 +96,7 @@ std::optional<Vec3> StrokeReader::working_point(const haptics::TickRecord& tick)
             return std::nullopt;
         case compute::Operation::fill:
             if (!tool_.fills_at_hand) return tick.contact.points[0].proxy_object_m;
-            if ((tick.sample.buttons & kOverAir) != 0) return std::nullopt;
+            if ((tick.sample.buttons & workpiece::kOverAir) != 0) return std::nullopt;
             if ((tick.flags & haptics::kTickInContact) != 0) return tick.contact.points[0].hip_object_m;
             return std::nullopt;
         case compute::Operation::paint:

@@ -26,10 +26,6 @@
 
 namespace burin::sculpt {
 
-// Button of a hand that a mouse leads, beside the first: the cursor has left the surface within a stroke. A tool that
-// fills at the hand touches what it has just added, and would go on adding into the air.
-inline constexpr std::uint32_t kOverAir = 1u << 2;
-
 // Motion of the working tool since the previous read, up to the first release of the button.
 struct SweptSamples {
     std::vector<compute::ToolSweep> sweeps;

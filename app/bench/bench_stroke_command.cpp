@@ -17,7 +17,7 @@
 #include "compute/rays/lattice.hpp"
 #include "geometry/files/closed_mesh.hpp"
 #include "geometry/files/mesh_export.hpp"
-#include "sculpt/workpiece.hpp"
+#include "sculpt/load_workpiece.hpp"
 #include "session/record/input_files.hpp"
 
 namespace burin::app {

@@ -12,6 +12,7 @@
 #include "base/try.hpp"
 #include "compute/rays/lattice.hpp"
 #include "desk/run/session.hpp"
+#include "sculpt/carved_workpiece.hpp"
 #include "session/options/option_bounds.hpp"
 #include "session/record/input_files.hpp"
 
@@ -67,6 +68,7 @@ Result<std::vector<std::optional<unsigned>>> parse_driver_threads(const std::str
 Result<void> profile(const ProfileOptions& o) {
     BURIN_TRY_DO(check_places(std::array{o.json}, session::inputs_of(o.sculpt).list()));
     session::SessionSetup options = o.sculpt;
+    options.carve.make_workpiece = sculpt::make_carved_workpiece;
     options.desk.offscreen = !o.window;
     options.scene.no_workpiece = !options.scene.world.empty();
     BURIN_TRY(choices, parse_driver_threads(o.driver_threads));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "activities/carve/stroke_pictures.hpp"
 #include "app/carve/report.hpp"
 #include "app/cli/output_files.hpp"
 #include "app/recordings/felt_recording.hpp"
@@ -15,13 +16,13 @@
 #include "base/try.hpp"
 #include "compute/tools/apply.hpp"
 #include "compute/vulkan/engine_choice.hpp"
-#include "desk/draw/pictures.hpp"
+#include "desk/draw/picture_folder.hpp"
 #include "desk/input/desk_input.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "record/record_writer.hpp"
 #include "sculpt/finishing.hpp"
+#include "sculpt/load_workpiece.hpp"
 #include "sculpt/stroke_file.hpp"
-#include "sculpt/workpiece.hpp"
 #include "session/felt/felt_stroke.hpp"
 #include "session/record/input_files.hpp"
 #include "session/work/opened_work.hpp"
@@ -117,7 +118,7 @@ Result<ChosenTool> choose_tool(const session::SessionSetup& options, std::option
     BURIN_TRY(settings, toolbox::parse_tool_settings(wanted));
     BURIN_TRY(tool, toolbox::make_tool(settings));
     const bool is_a_file = settings.shape.kind == toolbox::ToolKind::mesh;
-    BURIN_TRY_DO(sculpt::check_units(options.carve.workpiece, is_a_file));
+    BURIN_TRY_DO(workpiece::check_units(options.carve.workpiece, is_a_file));
     return ChosenTool{std::move(wanted), std::move(settings), std::move(tool)};
 }
 
@@ -182,7 +183,7 @@ std::vector<std::pair<std::string, std::string>> facts_of(const session::Session
 }
 
 // Gives the workpiece the material of the surface that the tool leaves. Fails where it cannot be carved with the tool.
-Result<geometry::Material> take_up(sculpt::LoadedWorkpiece& workpiece, ChosenTool& chosen) {
+Result<geometry::Material> take_up(workpiece::LoadedWorkpiece& workpiece, ChosenTool& chosen) {
     const geometry::Material material = toolbox::material_of(chosen.settings);
     chosen.tool.material = static_cast<std::uint8_t>(workpiece.solid.materials.size());
     workpiece.solid.materials.push_back(material);
@@ -211,16 +212,23 @@ Result<StrokeInputs> read_inputs(const session::SessionSetup& options) {
     return StrokeInputs{std::move(chosen), std::move(feel), std::move(stroke)};
 }
 
+// Opens the workpiece, whatever its source is.
+Result<session::OpenedWork> open_work(const workpiece::WorkpieceOptions& options, WorkerPool& pool) {
+    if (session::is_document(options)) return session::open_workpiece_of(options.source);
+    BURIN_TRY(workpiece, sculpt::load_workpiece(options, pool));
+    return session::OpenedWork{.workpiece = std::move(workpiece), .version = {}};
+}
+
 // A workpiece and the tool that suits it.
 struct TakenUp {
-    sculpt::LoadedWorkpiece workpiece;
+    workpiece::LoadedWorkpiece workpiece;
     ChosenTool chosen;
     geometry::Material material;  // of the surface that the tool leaves
     double longest_side_m;
 };
 
 Result<TakenUp> take_up_workpiece(const session::SessionSetup& options, const ChosenTool& stand_in, WorkerPool& pool) {
-    BURIN_TRY(opened, session::open_work(options.carve.workpiece, pool));
+    BURIN_TRY(opened, open_work(options.carve.workpiece, pool));
     if (!opened.lost.empty()) std::fprintf(stderr, "burin: %s\n", opened.lost.c_str());
     for (const std::string& path : options.carve.exports.files)
         BURIN_TRY_DO(sculpt::check_precision(path, opened.workpiece->solid.lattice));
@@ -231,10 +239,11 @@ Result<TakenUp> take_up_workpiece(const session::SessionSetup& options, const Ch
 }
 
 // Opens the folder of the pictures; none where none are asked for.
-Result<std::optional<session::Pictures>> open_pictures(const std::string& folder, const Box& bounds_object) {
-    if (folder.empty()) return std::optional<session::Pictures>();
-    BURIN_TRY(opened, session::Pictures::create(folder, bounds_object));
-    return std::optional<session::Pictures>(std::move(opened));
+Result<std::optional<activities::StrokePictures>> open_pictures(const std::string& folder, const Box& bounds_object) {
+    if (folder.empty()) return std::optional<activities::StrokePictures>();
+    BURIN_TRY_DO(session::make_picture_folder(folder, "--pictures"));
+    BURIN_TRY(opened, activities::StrokePictures::create(folder, bounds_object));
+    return std::optional<activities::StrokePictures>(std::move(opened));
 }
 
 // Leads the tool along the stroke: exactly, or as a simulated hand feels its way. Returns what that has felt.
@@ -374,8 +383,8 @@ Result<void> record_again(const session::SessionSetup& options) {
     BURIN_TRY(feel, toolbox::parse_feel(options.carve.feel));
     BURIN_TRY(stroke, sculpt::read_stroke(options.carve.stroke.file));
     WorkerPool pool(options.threads);
-    BURIN_TRY(opened, session::open_work(options.carve.workpiece, pool));
-    sculpt::LoadedWorkpiece* const workpiece = &*opened.workpiece;
+    BURIN_TRY(opened, open_work(options.carve.workpiece, pool));
+    workpiece::LoadedWorkpiece* const workpiece = &*opened.workpiece;
     BURIN_TRY(chosen_tool, choose_tool(options, std::nullopt));
     BURIN_TRY_DO(take_up(*workpiece, chosen_tool));
     compute::ChosenEngine chosen = compute::choose_engine(options.carve.engine, std::move(workpiece->solid), pool);

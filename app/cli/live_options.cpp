@@ -6,7 +6,7 @@
 #include "compute/engine/chosen_engine.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "devices/trackers/tracker.hpp"
-#include "sculpt/workpiece.hpp"
+#include "sculpt/load_workpiece.hpp"
 #include "session/options/option_bounds.hpp"
 
 namespace burin::app {

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "base/try.hpp"
-#include "desk/draw/pictures.hpp"
+#include "desk/draw/picture_folder.hpp"
 #include "picture/png.hpp"
 
 namespace burin::app {

@@ -79,7 +79,7 @@ void add_stroke_options(Command command, session::SessionSetup& options) {
             "--room", options.carve.workpiece.room,
             formatted("Empty room on every side of the workpiece for what is added, as a share of its longest side; "
                       "else %g for a person, and where a --stroke adds material, or 0",
-                      sculpt::kUsualRoom))
+                      workpiece::kUsualRoom))
         .within(session::kRoomBounds);
     add_engine_option(command, options.carve.engine);
 }

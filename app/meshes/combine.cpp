@@ -22,7 +22,7 @@
 #include "geometry/files/closed_mesh.hpp"
 #include "geometry/mesh/mesh_placing.hpp"
 #include "sculpt/finishing.hpp"
-#include "sculpt/workpiece.hpp"
+#include "sculpt/load_workpiece.hpp"
 #include "session/options/option_bounds.hpp"
 #include "session/record/input_files.hpp"
 
@@ -36,7 +36,7 @@ struct CombineOptions {
     compute::Combination operation = compute::Combination::unite;
     int resolution = 256;  // cells along the longest side of both together
     bool close_holes = false;
-    std::optional<double> weld_m;      // none: by the files' numbers (sculpt/workpiece.hpp)
+    std::optional<double> weld_m;      // none: by the files' numbers (sculpt/load_workpiece.hpp)
     std::vector<std::string> exports;  // STL, PLY, OBJ
     std::string report;                // a JSON file; empty: none
     unsigned threads = 0;              // 0: one per core

@@ -25,7 +25,7 @@
 #include "geometry/mesh/mesh_placing.hpp"
 #include "geometry/mesh/mesh_repair.hpp"
 #include "sculpt/finishing.hpp"
-#include "sculpt/workpiece.hpp"
+#include "sculpt/load_workpiece.hpp"
 #include "session/options/option_bounds.hpp"
 #include "session/record/input_files.hpp"
 

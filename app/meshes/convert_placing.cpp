@@ -10,7 +10,7 @@
 #include "base/try.hpp"
 #include "compute/mesher/surface.hpp"
 #include "geometry/files/mesh_import.hpp"
-#include "sculpt/workpiece.hpp"
+#include "sculpt/load_workpiece.hpp"
 
 namespace burin::app {
 namespace {

@@ -14,9 +14,9 @@
 #include "base/try.hpp"
 #include "document/document_reader.hpp"
 #include "sculpt/finishing.hpp"
-#include "sculpt/saved_solid.hpp"
 #include "session/record/input_files.hpp"
 #include "session/work/opened_work.hpp"
+#include "workpiece/saved_solid.hpp"
 
 namespace burin::app {
 namespace {
@@ -54,7 +54,7 @@ void tell_steps(document::DocumentReader& reader, const document::PartPlace& par
     const std::int64_t back = (*steps)->done + 1 - (*steps)->first, forward = (*steps)->last - (*steps)->done;
     json["undo"] = {{"back", back}, {"forward", forward}};
     if (!prints) return;
-    const bool strokes = part.kind == sculpt::kSolidPart;
+    const bool strokes = part.kind == workpiece::kSolidPart;
     const std::string what = std::string(strokes ? "stroke" : "step") + (back == 1 ? "" : "s");
     std::printf("  undo: %lld %s back, %lld forward\n", static_cast<long long>(back), what.c_str(),
                 static_cast<long long>(forward));
@@ -124,7 +124,7 @@ Result<void> convert_document(const ConvertOptions& options) {
     BURIN_TRY_DO(check_overwrites_none(options.out, inputs));
     BURIN_TRY_DO(check_outputs(std::array{options.out}, "", inputs));
     WorkerPool pool;
-    BURIN_TRY(opened, session::open_work({.source = options.in}, pool));
+    BURIN_TRY(opened, session::open_workpiece_of(options.in));
     compute::Solid& solid = opened.workpiece->solid;
     std::printf("%s\n", opened.workpiece->size.c_str());
     if (!opened.lost.empty()) std::fprintf(stderr, "burin: %s\n", opened.lost.c_str());

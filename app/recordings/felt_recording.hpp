@@ -9,7 +9,7 @@
 
 #include "compute/engine/chosen_engine.hpp"
 #include "record/compare.hpp"
-#include "sculpt/workpiece.hpp"
+#include "sculpt/load_workpiece.hpp"
 #include "session/options/session_setup.hpp"
 
 namespace burin::app {

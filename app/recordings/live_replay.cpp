@@ -16,13 +16,14 @@
 #include "app/cli/new_folders.hpp"
 #include "base/file_io.hpp"
 #include "base/try.hpp"
-#include "desk/draw/pictures.hpp"
+#include "desk/draw/picture_folder.hpp"
 #include "desk/run/session.hpp"
 #include "document/document_file.hpp"
 #include "record/motion.hpp"
 #include "record/record_writer.hpp"
 #include "scene/vrml_world.hpp"
 #include "scene/world_digest.hpp"
+#include "sculpt/carved_workpiece.hpp"
 #include "session/drive/headless_session.hpp"
 #include "session/drive/tick_comparison.hpp"
 #include "session/record/log_outputs.hpp"
@@ -245,6 +246,7 @@ std::vector<std::pair<std::string, std::string>> facts_of_live(const session::Se
 
 Result<void> run_recorded_session(const session::SessionSetup& given, const std::string& command) {
     session::SessionSetup options = given;
+    options.carve.make_workpiece = sculpt::make_carved_workpiece;
     options.work.provenance = {{"program", "burin"}, {"version", BURIN_VERSION}, {"compiler", __VERSION__}};
     NewFolders folders({options.work.outputs, options.desk.screenshots});
     Result<void> done;
@@ -278,6 +280,7 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
               session::TickComparison::create(reader, range,
                                               how.pictures.empty() ? session::TickComparison::AtDifference::ends
                                                                    : session::TickComparison::AtDifference::goes_on));
+    prepared.options.carve.make_workpiece = sculpt::make_carved_workpiece;
     session::ReplayManner manner;
     manner.draws = !how.pictures.empty();
     manner.only_compares = true;

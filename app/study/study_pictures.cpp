@@ -7,7 +7,7 @@
 #include "activities/train/stage_pictures.hpp"
 #include "app/cli/output_files.hpp"
 #include "base/try.hpp"
-#include "desk/draw/pictures.hpp"
+#include "desk/draw/picture_folder.hpp"
 #include "gpu/device.hpp"
 #include "picture/png.hpp"
 #include "renderer/frame/renderer.hpp"

@@ -164,7 +164,7 @@ Result<void> open_session(const WorldVisit& visit) {
     // A recording says itself what it was of; a script does not.
     const bool says_itself = session.scene.world.empty() && is_recording(session.record.input);
     session.scene.no_workpiece = !says_itself && session.carve.workpiece.source.empty();
-    const sculpt::WorkpieceOptions usual;
+    const workpiece::WorkpieceOptions usual;
     if (session.carve.workpiece.source.empty()) session.carve.workpiece.source = usual.source;
     return run_recorded_session(session, "world");
 }

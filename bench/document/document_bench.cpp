@@ -20,7 +20,7 @@
 #include "geometry/files/mesh_export.hpp"
 #include "record/compressed.hpp"
 #include "sculpt/carved_part.hpp"
-#include "sculpt/workpiece.hpp"
+#include "sculpt/load_workpiece.hpp"
 
 namespace burin::bench {
 namespace {
@@ -216,7 +216,7 @@ void forget(const std::string& path) {
 
 Result<scene::Pages> read(const std::string& path) {
     BURIN_TRY(reader, document::DocumentReader::open(path));
-    return reader.pages_of(sculpt::kSolidPart);
+    return reader.pages_of(workpiece::kSolidPart);
 }
 
 Result<void> measure_open(const std::string& path, bool is_cold, DocumentFigures::Open& figures) {
@@ -227,7 +227,7 @@ Result<void> measure_open(const std::string& path, bool is_cold, DocumentFigures
     if (is_cold) forget(path);
     static_cast<void>(watch.lap_ms());
     BURIN_TRY(pages, read(path));
-    const auto loaded = sculpt::load_solid(pages, path);
+    const auto loaded = workpiece::load_solid(pages, path);
     figures.open_ms.push_back(watch.lap_ms());
     if (!loaded) return std::unexpected(loaded.error());
     if (!loaded->lost.empty()) return fail(path, "is damaged: " + loaded->lost, "check the disk");

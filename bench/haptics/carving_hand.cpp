@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "haptics/channels.hpp"
-#include "sculpt/workpiece.hpp"
+#include "sculpt/load_workpiece.hpp"
 #include "toolbox/feel_options.hpp"
 #include "toolbox/felt_tool.hpp"
 #include "toolbox/tool_mesh.hpp"

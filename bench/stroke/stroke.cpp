@@ -13,7 +13,7 @@
 #include "compute/vulkan/engine_choice.hpp"
 #include "picture/frame_setup.hpp"
 #include "sculpt/carved_part.hpp"
-#include "sculpt/workpiece.hpp"
+#include "sculpt/load_workpiece.hpp"
 
 namespace burin::bench {
 namespace {

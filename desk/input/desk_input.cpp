@@ -8,8 +8,8 @@
 
 #include "base/error.hpp"
 #include "desk/input/input_wand.hpp"
-#include "sculpt/stroke_reader.hpp"
 #include "wall/seen_place.hpp"
+#include "workpiece/carve_order.hpp"
 
 namespace burin::session {
 namespace {
@@ -189,7 +189,7 @@ struct Steps {
     [[nodiscard]] std::uint32_t buttons() const {
         const std::uint32_t pressed = state.buttons | clicked;
         if (view.surface && !state.works) return pressed & ~kCarve;
-        return view.surface && state.in_air && (pressed & kCarve) != 0 ? pressed | sculpt::kOverAir : pressed;
+        return view.surface && state.in_air && (pressed & kCarve) != 0 ? pressed | workpiece::kOverAir : pressed;
     }
 
     // Modifiers come with the event or as keys of their own.

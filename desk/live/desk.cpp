@@ -11,7 +11,6 @@
 #include "desk/live/opened_desk.hpp"
 #include "desk/viewer/view_cube.hpp"
 #include "desk/viewer/viewed_picture.hpp"
-#include "sculpt/workpiece.hpp"
 #include "session/drive/thread_replay.hpp"
 
 namespace burin::session {
@@ -19,7 +18,7 @@ namespace burin::session {
 // ---- Opening
 
 Result<std::unique_ptr<Desk>> Desk::create(const SessionSetup& options, const SessionWall& wall, Clock& clock,
-                                           double pace, std::optional<sculpt::MadeWorkpiece> made) {
+                                           double pace, std::unique_ptr<workpiece::Workpiece> made) {
     BURIN_TRY(output, first_output(wall, options.desk));
     auto desk = std::unique_ptr<Desk>(new Desk(clock, wall));
     const auto place = [&](const Room& room, const HeldHandle* held) {
@@ -36,7 +35,7 @@ Result<std::unique_ptr<Desk>> Desk::create(const SessionSetup& options, const Se
     desk->viewer_.seen_from = seen_from(desk->seen());
     if (!options.record.from_before_units)
         desk->tool_sizes_ = tool_sizes_for(longest_side_m(desk->session_->room().workpiece_object));
-    if (const sculpt::Sculpture* workpiece = desk->session_->scene_side().workpiece())
+    if (const workpiece::Workpiece* workpiece = desk->session_->scene_side().workpiece())
         desk->surface_ = SeenSurface(workpiece->surface().lattice());
     return desk;
 }

@@ -19,10 +19,10 @@
 #include "desk/viewer/state_words.hpp"
 #include "desk/viewer/viewer_lead.hpp"
 #include "desk/viewer/viewer_watch.hpp"
-#include "sculpt/made_workpiece.hpp"
 #include "session/live/session.hpp"
 #include "session/record/input_source.hpp"
 #include "session/record/thread_log.hpp"
+#include "workpiece/workpiece.hpp"
 
 namespace burin::session {
 
@@ -31,7 +31,7 @@ public:
     // Opens a session before this wall; as Session::create().
     [[nodiscard]] static Result<std::unique_ptr<Desk>> create(const SessionSetup& options, const SessionWall& wall,
                                                               Clock& clock, double pace = 1.0,
-                                                              std::optional<sculpt::MadeWorkpiece> made = {});
+                                                              std::unique_ptr<workpiece::Workpiece> made = {});
     // Opens the session that a log was recorded of: with its start on the clock, so that all times are equal to the
     // bit, and with its machine's pace. Fails where the options do not open, or its device ticks at another rate. name:
     // the log's file name.

@@ -4,7 +4,6 @@
 #include "base/longest_side.hpp"
 #include "base/try.hpp"
 #include "desk/panel/live_panel.hpp"
-#include "sculpt/workpiece.hpp"
 
 namespace burin::session {
 namespace {

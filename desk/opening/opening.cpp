@@ -48,8 +48,8 @@ bool ends_opening(const Input& input) {
     return key->key == Key::escape || (key->key == Key::q && key->modifiers.ctrl);
 }
 
-Result<std::optional<sculpt::MadeWorkpiece>> open_before_eyes(Presenter& presenter, const SessionSetup& options,
-                                                              const SessionWall& wall, OpeningWork::Make make) {
+Result<std::unique_ptr<workpiece::Workpiece>> open_before_eyes(Presenter& presenter, const SessionSetup& options,
+                                                               const SessionWall& wall, OpeningWork::Make make) {
     BURIN_TRY(picture, OpeningPicture::create(options, wall));
     OpeningFrames frames(presenter, std::move(picture));
     OpeningWork work(std::move(make), [&presenter] { presenter.wake(); });
@@ -59,11 +59,10 @@ Result<std::optional<sculpt::MadeWorkpiece>> open_before_eyes(Presenter& present
         if (std::ranges::any_of(presenter.inputs(kLookEvery_s), ends_opening)) {
             work.sight().stop();
             presenter.hide_windows();
-            return std::nullopt;
+            return nullptr;
         }
     }
-    BURIN_TRY(made, work.take());
-    return std::optional(std::move(made));
+    return work.take();
 }
 
 }  // namespace burin::session

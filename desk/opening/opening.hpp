@@ -18,10 +18,10 @@ namespace burin::session {
 
 // Returns the workpiece; nothing where the user has ended it. Errors are those of the work. Where no picture can be
 // made the work goes on without. The presenter has a window, and the options a workpiece.
-[[nodiscard]] Result<std::optional<sculpt::MadeWorkpiece>> open_before_eyes(Presenter& presenter,
-                                                                            const SessionSetup& options,
-                                                                            const SessionWall& wall,
-                                                                            OpeningWork::Make make);
+[[nodiscard]] Result<std::unique_ptr<workpiece::Workpiece>> open_before_eyes(Presenter& presenter,
+                                                                             const SessionSetup& options,
+                                                                             const SessionWall& wall,
+                                                                             OpeningWork::Make make);
 
 // Returns whether an event of the window ends what goes on before the session: its closing, Esc, or Ctrl+Q.
 [[nodiscard]] bool ends_opening(const Input& input);

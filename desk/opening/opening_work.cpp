@@ -68,21 +68,20 @@ OpeningWork::OpeningWork(Make make, std::function<void()> wake)
 
 OpeningWork::~OpeningWork() { sight_.stop(); }
 
-Result<sculpt::MadeWorkpiece> OpeningWork::take() {
+Result<std::unique_ptr<workpiece::Workpiece>> OpeningWork::take() {
     thread_.join();
     return std::move(made_);
 }
 
-Result<sculpt::MadeWorkpiece> make_in_sight(const sculpt::WorkpieceOptions& workpiece,
-                                            const compute::EngineMaker& make_engine, unsigned threads,
-                                            OpeningSight& sight) {
-    sculpt::LoadWatch watch{&sight.work()};
+Result<std::unique_ptr<workpiece::Workpiece>> make_in_sight(const CarveOptions& carve, unsigned threads,
+                                                            OpeningSight& sight) {
+    workpiece::LoadWatch watch{&sight.work()};
     watch.look = [&sight](const geometry::TriangleMesh& mesh) {
         auto drawn = picture::drawn_mesh(geometry::coarse_copy(mesh, kMostLookedAt, kLookCells));
         const Box bounds = drawn->bounds;
         sight.show({std::move(drawn), bounds});
     };
-    return sculpt::make_workpiece(workpiece, make_engine, threads, watch);
+    return carve.make_workpiece(carve.workpiece, std::nullopt, carve.make_engine, threads, watch);
 }
 
 }  // namespace burin::session

@@ -11,9 +11,9 @@
 #include <optional>
 #include <thread>
 
-#include "compute/engine/chosen_engine.hpp"
 #include "picture/drawn_mesh.hpp"
-#include "sculpt/made_workpiece.hpp"
+#include "session/options/carve_options.hpp"
+#include "workpiece/workpiece.hpp"
 
 namespace burin::session {
 
@@ -54,7 +54,7 @@ private:
 
 class OpeningWork {
 public:
-    using Make = std::function<Result<sculpt::MadeWorkpiece>(OpeningSight&)>;
+    using Make = std::function<Result<std::unique_ptr<workpiece::Workpiece>>(OpeningSight&)>;
     // Begins at once. The wake function must stay callable until the end.
     OpeningWork(Make make, std::function<void()> wake);
     ~OpeningWork();  // stops the work and waits for that
@@ -63,17 +63,16 @@ public:
 
     [[nodiscard]] OpeningSight& sight() { return sight_; }
     // Waits for the work, and returns what it made; once.
-    [[nodiscard]] Result<sculpt::MadeWorkpiece> take();
+    [[nodiscard]] Result<std::unique_ptr<workpiece::Workpiece>> take();
 
 private:
     OpeningSight sight_;
-    Result<sculpt::MadeWorkpiece> made_;
+    Result<std::unique_ptr<workpiece::Workpiece>> made_;
     std::jthread thread_;
 };
 
 // Makes the workpiece of these options, and gives the sight a first look at its mesh.
-[[nodiscard]] Result<sculpt::MadeWorkpiece> make_in_sight(const sculpt::WorkpieceOptions& workpiece,
-                                                          const compute::EngineMaker& make_engine, unsigned threads,
-                                                          OpeningSight& sight);
+[[nodiscard]] Result<std::unique_ptr<workpiece::Workpiece>> make_in_sight(const CarveOptions& carve, unsigned threads,
+                                                                          OpeningSight& sight);
 
 }  // namespace burin::session

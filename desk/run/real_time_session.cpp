@@ -27,6 +27,7 @@
 #include "session/options/option_bounds.hpp"
 #include "session/record/session_recording.hpp"
 #include "session/stream/lsl_streams.hpp"
+#include "workpiece/workpiece.hpp"
 
 namespace burin::session {
 namespace {
@@ -38,8 +39,8 @@ void add_threads(SessionRecord& record, Session& session) {
     if (const compute::CarvingEngine* const engine = session.scene_side().engine()) {
         record.engine = engine->name();
         record.engine_traffic = engine->traffic();
-        record.updates = session.scene_side().workpiece()->figures().updates;
-        record.rays_changed = session.scene_side().workpiece()->figures().rays_changed;
+        record.updates = session.scene_side().workpiece()->work().updates;
+        record.rays_changed = session.scene_side().workpiece()->work().rays_changed;
     }
     record.machine_pace = session.hands().pace();
     record.lost_targets = session.hands().lost_targets();
@@ -76,11 +77,11 @@ SessionSetup as_displayed(SessionSetup options, const SessionWall& wall, Present
 }
 
 // Makes the workpiece while the window shows it; nothing where its user has ended that.
-Result<std::optional<sculpt::MadeWorkpiece>> open_workpiece(Presenter& presenter, const SessionSetup& options,
-                                                            const SessionWall& wall) {
+Result<std::unique_ptr<workpiece::Workpiece>> open_workpiece(Presenter& presenter, const SessionSetup& options,
+                                                             const SessionWall& wall) {
     presenter.name_windows(std::filesystem::path(options.carve.workpiece.source).filename().string());
     auto made = open_before_eyes(presenter, options, wall, [&options](OpeningSight& sight) {
-        return make_in_sight(options.carve.workpiece, options.carve.make_engine, options.threads, sight);
+        return make_in_sight(options.carve, options.threads, sight);
     });
     if (made && !*made && !options.record.path.empty())
         std::fprintf(stderr, "burin: ended while it was opened: %s was not begun\n", options.record.path.c_str());
@@ -108,7 +109,7 @@ using Wake = std::function<void()>;  // ends a wait of the frames' thread; any t
 // made: the workpiece, where it is ready already.
 Result<RealTimeSession> open_in_real_time(const SessionSetup& options, const SessionWall& wall, Clock& clock,
                                           InputSource input, const RealTimeRun& run, const Wake& wake,
-                                          std::optional<sculpt::MadeWorkpiece> made = {}) {
+                                          std::unique_ptr<workpiece::Workpiece> made = {}) {
     const double machine_pace = run.machine_pace ? *run.machine_pace : measured_pace();
     BURIN_TRY(opened, Desk::create(options, wall, clock, machine_pace, std::move(made)));
     RealTimeSession whole{
@@ -190,7 +191,7 @@ Result<SessionRecord> run_in_real_time(const SessionSetup& given, const SessionW
     BURIN_TRY(presenter, Presenter::open(given.desk, wall, std::move(run.driver)));
     const SessionSetup options = carving_with(presenter, as_displayed(given, wall, presenter));
     const Wake wake = [&to = presenter] { to.wake(); };
-    std::optional<sculpt::MadeWorkpiece> made;
+    std::unique_ptr<workpiece::Workpiece> made;
     // A document is there at once: nothing has to be read, checked and converted.
     const bool takes_long = has_workpiece(options) && !is_document(options.carve.workpiece);
     if (run.opens_before_eyes && wall.desk && presenter.has_windows() && takes_long) {

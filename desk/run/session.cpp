@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "base/try.hpp"
-#include "desk/draw/pictures.hpp"
+#include "desk/draw/picture_folder.hpp"
 #include "desk/opening/first_time.hpp"
 #include "desk/view/session_tracker.hpp"
 #include "devices/registry/device_registry.hpp"
@@ -90,7 +90,7 @@ Result<void> check(const SessionSetup& options) {
     if (!options.hands.points.empty() && std::ranges::none_of(devices_of(options.hands), has_points))
         return fail("--points", "belongs to a handle with points, and the device is " + options.hands.device,
                     "give --device " + devices::devices_with_handles() + ", or leave --points out");
-    return sculpt::check_units(options.carve.workpiece, false);  // a session has no tool from a file
+    return workpiece::check_units(options.carve.workpiece, false);  // a session has no tool from a file
 }
 
 Result<void> check_somebody_leads(const SessionSetup& setup, const SessionWall& wall) {

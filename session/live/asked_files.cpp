@@ -28,7 +28,7 @@ AskedFiles::AskedFiles(const SessionSetup& options, MessageLog& log)
     if (log_name_.empty()) opened_ = document_of(options);
 }
 
-void AskedFiles::place(sculpt::ExportSurface& wanted) {
+void AskedFiles::place(workpiece::ExportSurface& wanted) {
     const auto placed = outputs_.new_place_of(wanted.path, OutputKind::mesh);
     if (!placed) {
         wanted.refused = placed.error();

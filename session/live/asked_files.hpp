@@ -11,11 +11,11 @@
 #include "base/image.hpp"
 #include "document/document_writer.hpp"
 #include "scene/surface_update.hpp"
-#include "sculpt/sculpt_order.hpp"
 #include "session/notices/message_log.hpp"
 #include "session/record/log_outputs.hpp"
 #include "session/state/session_orders.hpp"
 #include "session/state/session_state.hpp"
+#include "workpiece/carve_order.hpp"
 
 namespace burin::session {
 
@@ -39,7 +39,7 @@ public:
     // Returns whether files are written at all.
     [[nodiscard]] bool write() const { return outputs_.write(); }
     // Says where a mesh goes; one that is refused is ordered as well, since a recording counts the orders.
-    void place(sculpt::ExportSurface& wanted);
+    void place(workpiece::ExportSurface& wanted);
     void tell(const scene::ExportOutcome& ended);
 
     struct DocumentPlace {

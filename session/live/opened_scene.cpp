@@ -22,31 +22,33 @@ constexpr double kExploringBall = 0.015;
 
 }  // namespace
 
-Result<sculpt::MadeWorkpiece> make_workpiece(const SessionSetup& options, OpenedWork& opened) {
-    if (!options.carve.make_engine && options.carve.engine == compute::EngineChoice::vulkan)
+Result<std::unique_ptr<workpiece::Workpiece>> make_workpiece(const SessionSetup& options, OpenedWork& opened) {
+    const CarveOptions& carve = options.carve;
+    if (!carve.make_engine && carve.engine == compute::EngineChoice::vulkan)
         return fail("--engine vulkan", "this session was opened without a device that carves",
                     "take --engine cpu, or open it with engine_maker() of compute/vulkan/engine_choice.hpp");
-    const compute::EngineMaker make_engine =
-        options.carve.make_engine ? options.carve.make_engine : compute::on_processor;
-    if (!opened.workpiece) return sculpt::make_workpiece(options.carve.workpiece, make_engine, options.threads);
-    auto made = sculpt::ready_to_carve(std::move(*opened.workpiece), make_engine,
-                                       std::make_unique<WorkerPool>(options.threads));
-    if (!made) return made;
-    if (opened.history) made->carving->keep_history(std::move(*std::exchange(opened.history, std::nullopt)));
+    if (!carve.make_workpiece)
+        return fail("workpiece " + carve.workpiece.source, "this session was opened without one who carves",
+                    "open it with make_carved_workpiece() of sculpt/carved_workpiece.hpp");
+    std::optional<workpiece::EarlierWork> earlier;
     // What came from a journal, or was damaged, is in no document as it is here.
-    if (opened.journal.empty() && opened.lost.empty()) made->carving->is_saved();
-    return made;
+    if (opened.workpiece)
+        earlier = {std::move(*opened.workpiece), std::exchange(opened.history, std::nullopt),
+                   opened.journal.empty() && opened.lost.empty()};
+    return carve.make_workpiece(carve.workpiece, std::move(earlier),
+                                carve.make_engine ? carve.make_engine : compute::on_processor, options.threads, {});
 }
 
-void note_workpiece(const sculpt::MadeWorkpiece& made, const SessionSetup& options, Room& room, FoundOut& found) {
-    const sculpt::LoadedWorkpiece& workpiece = made.loaded;
+void note_workpiece(const workpiece::Workpiece& made, const SessionSetup& options, Room& room, FoundOut& found) {
+    const workpiece::LoadedWorkpiece& workpiece = made.loaded();
+    const compute::Lattice& lattice = made.surface().lattice();
     std::fprintf(stderr, "burin: %s\n", workpiece.size.c_str());
     found.unit = workpiece.unit;
     found.holes_closed = !workpiece.closed.empty();
     room.workpiece_object = workpiece.bounds_object;
     room.carved_object = room.workpiece_object;
-    room.lattice_object = sculpt::lattice_bounds(made.lattice);
-    const double cells = longest_side_m(workpiece.bounds_object) / made.lattice.spacing_m;
+    room.lattice_object = workpiece::lattice_bounds(lattice);
+    const double cells = longest_side_m(workpiece.bounds_object) / lattice.spacing_m;
     const auto resolution = is_document(options.carve.workpiece) ? static_cast<int>(std::lround(cells))
                                                                  : options.carve.workpiece.resolution;
     found.name = std::filesystem::path(options.carve.workpiece.source).filename().string();

@@ -5,20 +5,21 @@
 
 #include <memory>
 
-#include "sculpt/made_workpiece.hpp"
 #include "session/live/hand_side.hpp"
 #include "session/live/work_side.hpp"
 #include "session/live/world_side.hpp"
 #include "session/options/session_setup.hpp"
 #include "session/state/session_state.hpp"
+#include "workpiece/workpiece.hpp"
 
 namespace burin::session {
 
 // Takes the workpiece of a document, or makes it of a file or a shape. Fails where a device is to carve and the options
-// have no maker of its engine.
-[[nodiscard]] Result<sculpt::MadeWorkpiece> make_workpiece(const SessionSetup& options, OpenedWork& opened);
+// have no maker of its engine, and where they have none of a workpiece.
+[[nodiscard]] Result<std::unique_ptr<workpiece::Workpiece>> make_workpiece(const SessionSetup& options,
+                                                                           OpenedWork& opened);
 // Takes its place into the room, and what was found out of it.
-void note_workpiece(const sculpt::MadeWorkpiece& made, const SessionSetup& options, Room& room, FoundOut& found);
+void note_workpiece(const workpiece::Workpiece& made, const SessionSetup& options, Room& room, FoundOut& found);
 
 // Takes the world of a document, or reads it.
 [[nodiscard]] Result<std::unique_ptr<WorldSide>> open_world(const SessionSetup& options, OpenedWork& opened);

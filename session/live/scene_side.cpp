@@ -1,35 +1,31 @@
 // SPDX-License-Identifier: MIT
 #include "session/live/scene_side.hpp"
 
-#include "sculpt/carved_part.hpp"
-#include "session/state/session_state.hpp"
-
 #include <utility>
+
+#include "session/state/session_state.hpp"
+#include "workpiece/workpiece.hpp"
 
 namespace burin::session {
 
 SceneSide::SceneSide(SessionHands& hands) : hands_(hands) {}
 SceneSide::~SceneSide() = default;
 
-void SceneSide::take(std::unique_ptr<sculpt::Sculpture> carving, std::unique_ptr<WorkerPool> pool) {
-    carving_ = std::move(carving);
-    pool_ = std::move(pool);
-}
+void SceneSide::take(std::unique_ptr<workpiece::Workpiece> workpiece) { workpiece_ = std::move(workpiece); }
 
-const compute::CarvingEngine* SceneSide::engine() const { return carving_ ? &carving_->engine() : nullptr; }
-const compute::Surface* SceneSide::surface() const { return carving_ ? &carving_->surface() : nullptr; }
-double SceneSide::spacing_m() const { return carving_ ? carving_->surface().lattice().spacing_m : 0.0; }
+const compute::CarvingEngine* SceneSide::engine() const { return workpiece_ ? &workpiece_->engine() : nullptr; }
+const compute::Surface* SceneSide::surface() const { return workpiece_ ? &workpiece_->surface() : nullptr; }
+double SceneSide::spacing_m() const { return workpiece_ ? workpiece_->surface().lattice().spacing_m : 0.0; }
 Vec3 SceneSide::lattice_origin_object() const {
-    return carving_ ? carving_->surface().lattice().origin_object : Vec3(0.0);
+    return workpiece_ ? workpiece_->surface().lattice().origin_object : Vec3(0.0);
 }
 
-Result<void> SceneSide::begin(const sculpt::UseTool& use, std::size_t undo_bytes, std::span<const Beginning> hands,
+Result<void> SceneSide::begin(const workpiece::UseTool& use, std::size_t undo_bytes, std::span<const Beginning> hands,
                               scene::ScenePart* brought, SampleTap* tap, Nanoseconds start_ns) {
     std::vector<scene::ScenePart*>& parts = parts_;
-    if (carving_) {
-        carved_ = std::make_unique<sculpt::CarvedPart>(*carving_, use.tool, use.hardness_Ns_per_m3, undo_bytes);
-        for (std::size_t part = 0; part < hands_.parts(); ++part) carved_->order(use, part);
-        parts.push_back(&*carved_);
+    if (workpiece_) {
+        carved_ = &workpiece_->begin(use, undo_bytes, hands_.parts());
+        parts.push_back(carved_);
     }
     tools_around_m_.assign(hands_.hands(), toolbox::around_m(use.tool));
     if (world_) {
@@ -52,14 +48,14 @@ Result<void> SceneSide::begin(const sculpt::UseTool& use, std::size_t undo_bytes
     return service_->update(start_ns);
 }
 
-SceneSide::Order SceneSide::carving(sculpt::SculptOrder order, std::size_t hand) {
+SceneSide::Order SceneSide::carving(workpiece::CarveOrder order, std::size_t hand) {
     return [this, order = std::move(order), hand, spread_m = spreads_m_[hand]] {
         const std::size_t first = hands_.first_part(hand), parts = hands_.parts_of(hand);
-        const auto* use = std::get_if<sculpt::UseTool>(&order);
-        if (carved_ && use == nullptr) carved_->order(order);
+        const auto* use = std::get_if<workpiece::UseTool>(&order);
+        if (carved_ != nullptr && use == nullptr) carved_->order(order);
         if (use == nullptr) return;
-        for (std::size_t part = first; carved_ && part < first + parts; ++part) carved_->order(*use, part);
-        tools_around_m_[hand] = carved_ ? carved_->around_m(first) : toolbox::around_m(use->tool);
+        for (std::size_t part = first; carved_ != nullptr && part < first + parts; ++part) carved_->order(*use, part);
+        tools_around_m_[hand] = carved_ != nullptr ? carved_->around_m(first) : toolbox::around_m(use->tool);
         for (std::size_t part = first; part < first + parts; ++part)
             service_->use_probe(part, tools_around_m_[hand] + spread_m);
     };
@@ -73,8 +69,8 @@ SceneSide::Order SceneSide::going(std::uint32_t part, scene::StepWay way) {
 
 SceneSide::Order SceneSide::saving(document::SaveRequest request, document::DocumentWriter& writer) {
     auto wanted = std::make_shared<document::SaveRequest>(std::move(request));
-    sculpt::SaveScene save{[this, wanted, &writer] {
-        if (carved_ && !wanted->refused) {  // a part that gives its pages counts them as saved
+    workpiece::SaveScene save{[this, wanted, &writer] {
+        if (carved_ != nullptr && !wanted->refused) {  // a part that gives its pages counts them as saved
             scene::Pages pages{.whole = !wanted->changed_alone};
             if (const Result<void> saved = carved_->save(pages); !saved) wanted->refused = saved.error();
             wanted->content.parts.insert(wanted->content.parts.begin(), std::move(pages));
@@ -85,7 +81,7 @@ SceneSide::Order SceneSide::saving(document::SaveRequest request, document::Docu
         if (brought_ != nullptr && brought_->is_kept() && !wanted->refused) save_brought(*wanted);
         writer.save(std::move(*wanted));
     }};
-    return [this, save = std::move(save)] { carved_ ? carved_->order(save) : save.save(); };
+    return [this, save = std::move(save)] { carved_ != nullptr ? carved_->order(save) : save.save(); };
 }
 
 void SceneSide::save_brought(document::SaveRequest& wanted) {
@@ -106,8 +102,8 @@ SceneSide::Order SceneSide::noting(document::Change change, document::DocumentWr
 SceneSide::Order SceneSide::journalling(document::Content content, document::DocumentWriter& writer) {
     return Order::aside([this, content = std::move(content), &writer]() mutable {
         // The workpiece is the first part.
-        if (carved_ && !carved_->copy(*content.parts.emplace(content.parts.begin()))) return;
-        if (carved_ && content.history) content.history->follow(0, carved_->undo_steps());
+        if (carved_ != nullptr && !carved_->copy(*content.parts.emplace(content.parts.begin()))) return;
+        if (carved_ != nullptr && content.history) content.history->follow(0, carved_->undo_steps());
         writer.begin_anew(std::move(content));
     });
 }
@@ -128,8 +124,8 @@ SceneSide::Order SceneSide::holding(HoldOrder order) {
 }
 
 void SceneSide::light(const SessionState& state, bool turns, Nanoseconds time_ns, const Give& give) {
-    const auto lamp = carved_ ? lamp_.look(state, turns, time_ns) : std::nullopt;
-    if (lamp) give(carving(sculpt::LightFrom{*lamp}, state.hand));
+    const auto lamp = carved_ != nullptr ? lamp_.look(state, turns, time_ns) : std::nullopt;
+    if (lamp) give(carving(workpiece::LightFrom{*lamp}, state.hand));
 }
 
 void SceneSide::spread(std::size_t hand, double spread_m, const Give& give) {

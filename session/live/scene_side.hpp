@@ -15,26 +15,22 @@
 
 #include "document/document_writer.hpp"
 #include "scene/scene_thread.hpp"
-#include "sculpt/sculpt_order.hpp"
 #include "session/hands/session_hands.hpp"
 #include "session/live/sample_tap.hpp"
 #include "session/live/scene_news.hpp"
 #include "session/live/session_watch.hpp"
 #include "session/live/world_side.hpp"
-
-namespace burin {
-class WorkerPool;  // base/worker_pool.hpp
-}
+#include "workpiece/carve_order.hpp"
 
 namespace burin::compute {
 class CarvingEngine;  // compute/engine/engine.hpp
 class Surface;        // compute/mesher/surface.hpp
 }  // namespace burin::compute
 
-namespace burin::sculpt {
-class CarvedPart;  // sculpt/carved_part.hpp
-class Sculpture;   // sculpt/sculpture.hpp
-}  // namespace burin::sculpt
+namespace burin::workpiece {
+class Workpiece;      // workpiece/workpiece.hpp
+class WorkpiecePart;  // workpiece/workpiece.hpp
+}  // namespace burin::workpiece
 
 namespace burin::session {
 
@@ -49,8 +45,8 @@ public:
     explicit SceneSide(SessionHands& hands);
     ~SceneSide();
 
-    // Takes what is there to be touched, before begin(). pool: of the workpiece.
-    void take(std::unique_ptr<sculpt::Sculpture> carving, std::unique_ptr<WorkerPool> pool);
+    // Takes what is there to be touched, before begin().
+    void take(std::unique_ptr<workpiece::Workpiece> workpiece);
     void take(std::unique_ptr<WorldSide> world) { world_ = std::move(world); }
     // How a hand begins, by the numbers of the scene.
     struct Beginning {
@@ -60,12 +56,12 @@ public:
     };
     // Makes the scene of all hands, which begin with one tool, and updates it for the first time. brought: a part that
     // an activity brings, which must outlive this; tap: what the activity listens by. Null: none.
-    [[nodiscard]] Result<void> begin(const sculpt::UseTool& use, std::size_t undo_bytes,
+    [[nodiscard]] Result<void> begin(const workpiece::UseTool& use, std::size_t undo_bytes,
                                      std::span<const Beginning> hands, scene::ScenePart* brought, SampleTap* tap,
                                      Nanoseconds start_ns);
 
     // Orders for the scene's thread. A tool is the one of the hand in use.
-    [[nodiscard]] Order carving(sculpt::SculptOrder order, std::size_t hand);
+    [[nodiscard]] Order carving(workpiece::CarveOrder order, std::size_t hand);
     // Has a part go a step back or forward; one that there is not says nothing.
     [[nodiscard]] Order going(std::uint32_t part, scene::StepWay way);
     // Adds the pages of the workpiece, before those of the request, and of what an activity has brought, behind them,
@@ -100,15 +96,15 @@ public:
     [[nodiscard]] SceneNews& news() { return news_; }
     [[nodiscard]] const SceneNews& news() const { return news_; }
     // Null: there is no workpiece, or no world. The engine counts after the threads have ended.
-    [[nodiscard]] const sculpt::Sculpture* workpiece() const { return carving_.get(); }
+    [[nodiscard]] const workpiece::Workpiece* workpiece() const { return workpiece_.get(); }
     [[nodiscard]] const compute::CarvingEngine* engine() const;
     // Returns the surface as it is carved now, and the objects of the world as they are now.
     [[nodiscard]] const compute::Surface* surface() const;
     [[nodiscard]] const scene::MeshPart* objects() const { return world_ ? &std::as_const(*world_).part() : nullptr; }
-    [[nodiscard]] sculpt::CarvedPart* carved() { return carved_.get(); }
+    [[nodiscard]] workpiece::WorkpiecePart* carved() { return carved_; }
     // The part that an activity has brought, null: none; and its number, behind workpiece and objects.
     [[nodiscard]] const scene::ScenePart* brought() const { return brought_; }
-    [[nodiscard]] std::uint32_t brought_part() const { return (carved_ ? 1u : 0u) + (world_ ? 1u : 0u); }
+    [[nodiscard]] std::uint32_t brought_part() const { return (carved_ != nullptr ? 1u : 0u) + (world_ ? 1u : 0u); }
     [[nodiscard]] WorldSide* world() { return world_.get(); }
     [[nodiscard]] const WorldSide* world() const { return world_.get(); }
     // Of the workpiece's lattice; 0 without one.
@@ -119,9 +115,8 @@ private:
     void save_brought(document::SaveRequest& wanted);
 
     SessionHands& hands_;
-    std::unique_ptr<WorkerPool> pool_;  // of the workpiece; null without one
-    std::unique_ptr<sculpt::Sculpture> carving_;
-    std::unique_ptr<sculpt::CarvedPart> carved_;  // with carving_
+    std::unique_ptr<workpiece::Workpiece> workpiece_;  // null: there is none
+    workpiece::WorkpiecePart* carved_ = nullptr;       // once it has begun
     std::unique_ptr<WorldSide> world_;
     std::vector<scene::ScenePart*> parts_;
     scene::ScenePart* brought_ = nullptr;

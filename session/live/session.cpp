@@ -3,11 +3,11 @@
 
 #include <utility>
 
-#include "sculpt/carved_part.hpp"
 #include "session/live/orders_between.hpp"
 #include "session/live/session_events.hpp"
 #include "session/state/governed.hpp"
 #include "session/state/session_step.hpp"
+#include "workpiece/workpiece.hpp"
 
 namespace burin::session {
 
@@ -60,10 +60,10 @@ void Session::carry_out(SessionOrders orders, const Give& give) {
     OrdersBetween between(orders, scene_, work_, state_, give);
     for (std::size_t given = 0; given < orders.carving.size(); ++given) {
         between.give_up_to(given);
-        sculpt::SculptOrder& order = orders.carving[given];
-        if (const auto* use = std::get_if<sculpt::UseTool>(&order))
+        workpiece::CarveOrder& order = orders.carving[given];
+        if (const auto* use = std::get_if<workpiece::UseTool>(&order))
             notices_.look_at_tool(state_.led().tool, use->tool, room_.workpiece_object, scene_.spacing_m());
-        auto* wanted = std::get_if<sculpt::ExportSurface>(&order);
+        auto* wanted = std::get_if<workpiece::ExportSurface>(&order);
         if (wanted != nullptr && !files().write()) continue;
         if (wanted != nullptr) files().place(*wanted);
         give(scene_.carving(std::move(order), state_.hand));

@@ -28,10 +28,6 @@
 #include "session/state/leader.hpp"
 #include "session/state/session_room.hpp"
 
-namespace burin::sculpt {
-struct MadeWorkpiece;  // sculpt/made_workpiece.hpp
-}
-
 namespace burin::session {
 
 class Session {
@@ -44,7 +40,7 @@ public:
     // replay, and 1 where results must depend on no machine. made: the workpiece of the options, where it is ready
     // already. place: none, where the scene's frame is the world's.
     [[nodiscard]] static Result<std::unique_ptr<Session>> create(const SessionSetup& options, Clock& clock, double pace,
-                                                                 std::optional<sculpt::MadeWorkpiece> made,
+                                                                 std::unique_ptr<workpiece::Workpiece> made,
                                                                  const Place& place);
     [[nodiscard]] static Result<std::unique_ptr<Session>> create(const SessionSetup& options, Clock& clock);
 
@@ -116,7 +112,7 @@ public:
 
 private:
     Session(Clock& clock, const SessionSetup& options, double pace);
-    [[nodiscard]] Result<void> load(std::optional<sculpt::MadeWorkpiece> made);
+    [[nodiscard]] Result<void> load(std::unique_ptr<workpiece::Workpiece> made);
     [[nodiscard]] Result<void> begin(const Place& place);
     void publish_parameters() { hands_.publish_parameters(state_, room_, activity_); }
     void carry_out(SessionOrders orders, const Give& give);

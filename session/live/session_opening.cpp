@@ -5,10 +5,10 @@
 
 #include "base/try.hpp"
 #include "geometry/mesh/crumbs.hpp"
-#include "sculpt/carved_part.hpp"
 #include "session/live/opened_room.hpp"
 #include "session/live/opened_scene.hpp"
 #include "session/live/session.hpp"
+#include "workpiece/workpiece.hpp"
 
 namespace burin::session {
 Session::Session(Clock& clock, const SessionSetup& options, double pace)
@@ -20,7 +20,7 @@ Session::Session(Clock& clock, const SessionSetup& options, double pace)
       work_(options_, scene_, notices_.files(), notices_.log(), [this] { return saved_content(); }) {}
 
 Result<std::unique_ptr<Session>> Session::create(const SessionSetup& options, Clock& clock, double pace,
-                                                 std::optional<sculpt::MadeWorkpiece> made, const Place& place) {
+                                                 std::unique_ptr<workpiece::Workpiece> made, const Place& place) {
     auto session = std::unique_ptr<Session>(new Session(clock, options, pace));
     BURIN_TRY_DO(session->load(std::move(made)));
     BURIN_TRY_DO(session->begin(place));
@@ -28,20 +28,22 @@ Result<std::unique_ptr<Session>> Session::create(const SessionSetup& options, Cl
 }
 
 Result<std::unique_ptr<Session>> Session::create(const SessionSetup& options, Clock& clock) {
-    return create(options, clock, 1.0, std::nullopt, {});
+    return create(options, clock, 1.0, nullptr, {});
 }
 
-Result<void> Session::load(std::optional<sculpt::MadeWorkpiece> made) {
+Result<void> Session::load(std::unique_ptr<workpiece::Workpiece> made) {
     BURIN_TRY(opened, open_room(options_));
     room_ = std::move(opened.room);
     hands_.use(std::move(opened.handles));
     BURIN_TRY_DO(work_.open());
     if (has_workpiece(options_)) {
-        BURIN_TRY(workpiece,
-                  made ? Result<sculpt::MadeWorkpiece>(std::move(*made)) : make_workpiece(options_, work_.opened()));
-        note_workpiece(workpiece, options_, room_, found_);
-        if (const std::string& closed = workpiece.loaded.closed; !closed.empty()) notify(closed, MessageKind::info);
-        scene_.take(std::move(workpiece.carving), std::move(workpiece.pool));
+        if (!made) {
+            BURIN_TRY(workpiece, make_workpiece(options_, work_.opened()));
+            made = std::move(workpiece);
+        }
+        note_workpiece(*made, options_, room_, found_);
+        if (const std::string& closed = made->loaded().closed; !closed.empty()) notify(closed, MessageKind::info);
+        scene_.take(std::move(made));
     }
     if (has_world(options_)) {
         const bool is_saved = is_world_saved(work_.opened());
@@ -76,7 +78,7 @@ Result<void> Session::begin(const Place& place) {
     BURIN_TRY_DO(scene_.begin(use, options_.carve.undo_memory_MiB << 20,
                               hands_.beginnings(state_, room_, scene_.spacing_m()), activity_.scene_part(),
                               activity_.tap(), time_.start_ns));
-    if (scene_.carved() != nullptr) scene_.carved()->order(sculpt::MirrorStrokes{state_.mirror});
+    if (scene_.carved() != nullptr) scene_.carved()->order(workpiece::MirrorStrokes{state_.mirror});
     work_.begin_history(state_);
     work_.begin_journal(state_);
     return {};

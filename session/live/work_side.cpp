@@ -5,8 +5,8 @@
 
 #include "base/text.hpp"
 #include "base/try.hpp"
-#include "sculpt/carved_part.hpp"
 #include "session/work/journal_folder.hpp"
+#include "workpiece/workpiece.hpp"
 
 namespace burin::session {
 namespace {

@@ -9,9 +9,10 @@
 
 #include "base/length_unit.hpp"
 #include "compute/engine/chosen_engine.hpp"
-#include "sculpt/workpiece_options.hpp"
 #include "toolbox/feel_options.hpp"
 #include "toolbox/mirror.hpp"
+#include "workpiece/workpiece_maker.hpp"
+#include "workpiece/workpiece_options.hpp"
 
 namespace burin::session {
 
@@ -38,11 +39,13 @@ struct StrokeOptions {
 };
 
 struct CarveOptions {
-    sculpt::WorkpieceOptions workpiece;
+    workpiece::WorkpieceOptions workpiece;
     toolbox::Mirror mirror;  // planes on whose other sides the tool works as well
     compute::EngineChoice engine = compute::EngineChoice::automatic;
     // Makes it; none: the processor's, and a device that is asked for is refused. No option of the command line.
     compute::EngineMaker make_engine;
+    // Makes the workpiece (sculpt/carved_workpiece.hpp); none: there can be none. No option of the command line.
+    workpiece::WorkpieceMaker make_workpiece;
     toolbox::FeelOptions feel;           // press and grip: of a simulated hand
     std::size_t undo_memory_MiB = 1024;  // memory for strokes that can be undone
     ExportOptions exports;

@@ -91,7 +91,7 @@ void settle_room(SessionSetup& setup, bool in_session) {
     const bool adds = in_session
                           ? setup.record.input.empty()
                           : !setup.carve.stroke.file.empty() && setup.hands.tool.operation == compute::Operation::fill;
-    setup.carve.workpiece.room = adds ? sculpt::kUsualRoom : 0.0;
+    setup.carve.workpiece.room = adds ? workpiece::kUsualRoom : 0.0;
 }
 
 Result<void> set_devices(HandsSetup& hands, const std::vector<std::string>& given) {

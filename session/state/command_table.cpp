@@ -9,7 +9,6 @@
 #include "base/try.hpp"
 #include "document/document_file.hpp"
 #include "scene/object_property.hpp"
-#include "sculpt/workpiece.hpp"
 #include "session/input/input_words.hpp"
 
 namespace burin::session {

@@ -12,9 +12,9 @@
 #include "session/state/session_state.hpp"
 
 #include "base/try.hpp"
-#include "sculpt/sculpt_order.hpp"
 #include "session/held/held_handle.hpp"
 #include "session/objects/world_objects.hpp"
+#include "workpiece/carve_order.hpp"
 
 namespace burin::session {
 namespace {
@@ -60,7 +60,7 @@ public:
         return {};
     }
     Result<void> operator()(const SetMirror& set) {
-        BURIN_TRY_DO(order(sculpt::MirrorStrokes{set.mirror}));
+        BURIN_TRY_DO(order(workpiece::MirrorStrokes{set.mirror}));
         state_.mirror = set.mirror;
         return {};
     }
@@ -158,7 +158,7 @@ private:
         orders_.parameters = true;
         return {};
     }
-    Result<void> order(sculpt::SculptOrder order) {
+    Result<void> order(workpiece::CarveOrder order) {
         if (!state_.carves)
             return fail("the world", "holds no workpiece that could be carved", "open it with a --workpiece");
         orders_.carving.push_back(std::move(order));
@@ -208,7 +208,7 @@ private:
         return {};
     }
     Result<void> export_to(const std::string& path) {
-        return order(sculpt::ExportSurface{
+        return order(workpiece::ExportSurface{
             .path = path, .unit = state_.export_unit, .crumbs_m = state_.crumbs_m, .asked_by = orders_.line});
     }
     SessionState& state_;

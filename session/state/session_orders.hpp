@@ -10,10 +10,10 @@
 
 #include "document/history.hpp"
 #include "scene/part_steps.hpp"
-#include "sculpt/sculpt_order.hpp"
 #include "session/notices/message_kind.hpp"
 #include "session/objects/world_history.hpp"
 #include "session/objects/world_orders.hpp"
+#include "workpiece/carve_order.hpp"
 
 namespace burin::session {
 
@@ -58,7 +58,7 @@ struct AskedAmplifiers {
 // Orders that a step gives to the other parts of the session.
 struct SessionOrders {
     std::size_t line = 0;  // of the log, for commands that are run now
-    std::vector<sculpt::SculptOrder> carving;
+    std::vector<workpiece::CarveOrder> carving;
     std::vector<GoOrder> goes;
     std::vector<WorldOrder> world;
     std::vector<HoldOrder> holds;  // after the edits of `world`

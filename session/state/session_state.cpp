@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "base/try.hpp"
-#include "sculpt/sculpt_order.hpp"
-#include "sculpt/stroke_reader.hpp"
+#include "haptics/tick_parameters.hpp"
 #include "session/held/held_handle.hpp"
 #include "session/held/held_tool.hpp"
 #include "session/objects/world_objects.hpp"
 #include "session/state/session_room.hpp"
 #include "toolbox/tool_mesh.hpp"
+#include "workpiece/carve_order.hpp"
 
 namespace burin::session {
 namespace {
@@ -195,7 +195,7 @@ haptics::TickParameters parameters_of(const SessionState& state, const Room& roo
     return parameters_of(state, room, state.hand);
 }
 
-Result<sculpt::UseTool> tool_of(const SessionState& state) {
+Result<workpiece::UseTool> tool_of(const SessionState& state) {
     const toolbox::ToolSettings& tool = state.led().tool;
     BURIN_TRY_DO(toolbox::check_tool(tool));
     BURIN_TRY_DO(toolbox::check_feel(state.feel));
@@ -206,8 +206,8 @@ Result<sculpt::UseTool> tool_of(const SessionState& state) {
     BURIN_TRY(shape, (state.meshes ? *state.meshes : none).shape_of(tool.shape));
     toolbox::Tool made = toolbox::make_tool(tool, std::move(shape));
     made.fills_at_hand = state.mouse == MouseMode::surface;
-    return sculpt::UseTool{std::move(made), toolbox::material_of(tool),
-                           material_under_tool(state, state.led()).hardness_Ns_per_m3};
+    return workpiece::UseTool{std::move(made), toolbox::material_of(tool),
+                              material_under_tool(state, state.led()).hardness_Ns_per_m3};
 }
 
 }  // namespace burin::session

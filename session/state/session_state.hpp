@@ -31,9 +31,9 @@ namespace burin::haptics {
 struct TickParameters;  // haptics/tick_parameters.hpp
 }  // namespace burin::haptics
 
-namespace burin::sculpt {
-struct UseTool;  // sculpt/sculpt_order.hpp
-}  // namespace burin::sculpt
+namespace burin::workpiece {
+struct UseTool;  // workpiece/carve_order.hpp
+}  // namespace burin::workpiece
 
 namespace burin::session {
 
@@ -108,5 +108,5 @@ struct SessionState {
                                                     const devices::DeviceDescription& device);
 [[nodiscard]] haptics::TickParameters parameters_of(const SessionState& state, const Room& room);
 // Returns the tool that the carving side is to use; the Error says what is wrong with it.
-[[nodiscard]] Result<sculpt::UseTool> tool_of(const SessionState& state);
+[[nodiscard]] Result<workpiece::UseTool> tool_of(const SessionState& state);
 }  // namespace burin::session

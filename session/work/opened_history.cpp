@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scene/saved_objects.hpp"
-#include "sculpt/saved_changes.hpp"
+#include "workpiece/saved_changes.hpp"
 
 namespace burin::session {
 namespace {
@@ -31,7 +31,7 @@ compute::History history_in(document::DocumentReader& reader, const document::Pa
     const auto read = [&](std::int64_t number) -> std::optional<compute::RayBatch> {
         const Result<scene::Pages> pages = reader.step(part, number);
         if (!pages) return std::nullopt;
-        Result<compute::RayBatch> step = sculpt::step_in(solid, *pages, reader.path());
+        Result<compute::RayBatch> step = workpiece::step_in(solid, *pages, reader.path());
         return step ? std::optional(std::move(*step)) : std::nullopt;
     };
     for (std::int64_t number = (*steps)->done + 1; number <= (*steps)->last; ++number) {

@@ -15,13 +15,13 @@
 #include "document/log_check.hpp"
 #include "record/store_reading.hpp"
 #include "scene/saved_objects.hpp"
-#include "sculpt/saved_changes.hpp"
-#include "sculpt/saved_solid.hpp"
 #include "session/held/held_tool.hpp"
 #include "session/input/input_words.hpp"
 #include "session/state/command_table.hpp"
 #include "session/state/session_settings.hpp"
 #include "session/work/opened_history.hpp"
+#include "workpiece/saved_changes.hpp"
+#include "workpiece/saved_solid.hpp"
 
 namespace burin::session {
 namespace {
@@ -63,9 +63,9 @@ std::optional<Similarity> view_in(const document::DocumentReader& reader, double
 // Returns the saved bounds of the workpiece, which lie in the lattice; where they are damaged, which is told, the
 // lattice's.
 Box bounds_in(const document::DocumentReader& reader, const compute::Lattice& lattice, std::string& lost) {
-    if (!reader.facts().contains(kBounds)) return sculpt::workpiece_bounds(lattice);
+    if (!reader.facts().contains(kBounds)) return workpiece::workpiece_bounds(lattice);
     const auto n = parse_numbers(reader.fact(kBounds), 6, kBounds);
-    const Box most = sculpt::lattice_bounds(lattice);
+    const Box most = workpiece::lattice_bounds(lattice);
     const auto is_sound = [&] {
         double longest_m = 0.0;
         for (int axis = 0; axis < 3; ++axis) {
@@ -77,7 +77,7 @@ Box bounds_in(const document::DocumentReader& reader, const compute::Lattice& la
     };
     if (n && is_sound()) return {{(*n)[0], (*n)[1], (*n)[2]}, {(*n)[3], (*n)[4], (*n)[5]}};
     add_to(lost, "the workpiece's bounds are damaged: those of its lattice are taken");
-    return sculpt::workpiece_bounds(lattice);
+    return workpiece::workpiece_bounds(lattice);
 }
 
 // Makes a change of one part again; of the solid with a history of it, where there is one.
@@ -86,7 +86,7 @@ Result<void> apply_change(const scene::Pages& change, OpenedWork& opened, const 
     if (change.part == scene::kObjectsPart)
         return opened.world ? scene::apply_change(opened.world->objects, opened.colours, change, where)
                             : Result<void>{};
-    return opened.workpiece ? sculpt::apply_change(opened.workpiece->solid, change, where, history) : Result<void>{};
+    return opened.workpiece ? workpiece::apply_change(opened.workpiece->solid, change, where, history) : Result<void>{};
 }
 
 // Has the order of steps follow a change. What the change says of the order may lack strokes that were noted before it.
@@ -141,7 +141,7 @@ void say_where_it_goes(const document::DocumentReader& reader, OpenedWork& opene
 // Takes the history of the solid that the pages hold. What is damaged and was made again is other than the strokes left
 // it: nothing leads back from there.
 void take_history(document::DocumentReader& reader, OpenedWork& opened, std::size_t undo_bytes, std::string& lost) {
-    const auto part = std::ranges::find(reader.parts(), sculpt::kSolidPart, &document::PartPlace::kind);
+    const auto part = std::ranges::find(reader.parts(), workpiece::kSolidPart, &document::PartPlace::kind);
     if (lost.empty()) {
         opened.history = history_in(reader, *part, opened.workpiece->solid, undo_bytes, lost);
         return;
@@ -159,8 +159,8 @@ bool has_part(const document::DocumentReader& reader, std::string_view kind) {
 // Reads the solid and what led to it.
 Result<void> read_solid(document::DocumentReader& reader, std::size_t undo_bytes, OpenedWork& opened,
                         std::string& lost) {
-    BURIN_TRY(pages, reader.pages_of(sculpt::kSolidPart));
-    BURIN_TRY(loaded, sculpt::load_solid(pages, reader.path()));
+    BURIN_TRY(pages, reader.pages_of(workpiece::kSolidPart));
+    BURIN_TRY(loaded, workpiece::load_solid(pages, reader.path()));
     opened.workpiece = {.solid = std::move(loaded.solid), .report = {}};
     lost = loaded.lost;
     if (undo_bytes > 0) take_history(reader, opened, undo_bytes, lost);
@@ -177,7 +177,8 @@ Result<void> read_objects(document::DocumentReader& reader, OpenedWork& opened, 
 }
 
 // Says of the workpiece what the document knows of it.
-void describe_workpiece(const document::DocumentReader& reader, sculpt::LoadedWorkpiece& workpiece, std::string& lost) {
+void describe_workpiece(const document::DocumentReader& reader, workpiece::LoadedWorkpiece& workpiece,
+                        std::string& lost) {
     const std::string& path = reader.path();
     workpiece.unit = length_unit(reader.fact(kUnit)).value_or(LengthUnit::m);
     workpiece.bounds_object = bounds_in(reader, workpiece.solid.lattice, lost);
@@ -254,7 +255,7 @@ std::string line_of(const SessionCommand& command) {
 
 }  // namespace
 
-bool is_document(const sculpt::WorkpieceOptions& options) { return document::is_document_name(options.source); }
+bool is_document(const workpiece::WorkpieceOptions& options) { return document::is_document_name(options.source); }
 
 std::string document_of(const SessionSetup& options) {
     if (!options.scene.no_workpiece && is_document(options.carve.workpiece)) return options.carve.workpiece.source;
@@ -265,7 +266,7 @@ Result<void> settle_document(SessionSetup& options) {
     const std::string path = document_of(options);
     if (path.empty() || options.scene.given != nullptr) return {};
     BURIN_TRY(reader, document::DocumentReader::open(path));
-    const bool has_solid = has_part(reader, sculpt::kSolidPart), has_objects = has_part(reader, scene::kObjectsPart);
+    const bool has_solid = has_part(reader, workpiece::kSolidPart), has_objects = has_part(reader, scene::kObjectsPart);
     if (!has_solid && !has_objects)
         return fail(path, "holds neither a workpiece nor a world", "open it with the program that has saved it");
     const bool brings_other = (has_objects && !options.scene.world.empty() && options.scene.world != path) ||
@@ -315,7 +316,7 @@ Result<OpenedWork> open_document(const std::string& path, std::size_t undo_bytes
     OpenedWork opened;
     std::string lost;
     const bool has_objects = has_part(reader, scene::kObjectsPart);
-    const bool has_solid = has_part(reader, sculpt::kSolidPart) || !has_objects;
+    const bool has_solid = has_part(reader, workpiece::kSolidPart) || !has_objects;
     if (has_solid) BURIN_TRY_DO(read_solid(reader, undo_bytes, opened, lost));
     const bool leads_back = has_solid && undo_bytes > 0 && lost.empty();
     const std::size_t lost_before = lost.size();
@@ -348,14 +349,10 @@ Result<OpenedWork> open_document(const std::string& path, std::size_t undo_bytes
     return opened;
 }
 
-Result<OpenedWork> open_work(const sculpt::WorkpieceOptions& options, WorkerPool& pool, std::size_t undo_bytes) {
-    if (is_document(options)) {
-        Result<OpenedWork> opened = open_document(options.source, undo_bytes);
-        if (!opened || opened->workpiece) return opened;
-        return fail(options.source, "holds a world and no workpiece", "open it as one: burin world " + options.source);
-    }
-    BURIN_TRY(workpiece, sculpt::load_workpiece(options, pool));
-    return OpenedWork{.workpiece = std::move(workpiece), .version = {}};
+Result<OpenedWork> open_workpiece_of(const std::string& document, std::size_t undo_bytes) {
+    Result<OpenedWork> opened = open_document(document, undo_bytes);
+    if (!opened || opened->workpiece) return opened;
+    return fail(document, "holds a world and no workpiece", "open it as one: burin world " + document);
 }
 
 Result<void> take_settings_of_document(SessionSetup& options) {

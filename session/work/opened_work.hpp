@@ -13,14 +13,15 @@
 #include "compute/engine/history.hpp"
 #include "document/document_reader.hpp"
 #include "scene/world_file.hpp"
-#include "sculpt/workpiece.hpp"
 #include "session/options/session_setup.hpp"
 #include "session/state/session_state.hpp"
+#include "workpiece/loaded_workpiece.hpp"
+#include "workpiece/workpiece_options.hpp"
 
 namespace burin::session {
 
 struct OpenedWork {
-    std::optional<sculpt::LoadedWorkpiece> workpiece = {};                  // none: a document of a world without one
+    std::optional<workpiece::LoadedWorkpiece> workpiece = {};               // none: a document of a world without one
     std::optional<scene::World> world = {};                                 // of a document
     std::vector<std::shared_ptr<const scene::CornerColours>> colours = {};  // of the files of its objects
     std::string lost = {};  // what of a document was damaged, in words; empty: nothing
@@ -39,7 +40,7 @@ struct OpenedWork {
 };
 
 // Returns whether the source of a workpiece is a document.
-[[nodiscard]] bool is_document(const sculpt::WorkpieceOptions& options);
+[[nodiscard]] bool is_document(const workpiece::WorkpieceOptions& options);
 
 // Returns the document that the options are of, in workpiece or world; empty: of none.
 [[nodiscard]] std::string document_of(const SessionSetup& options);
@@ -50,9 +51,8 @@ struct OpenedWork {
 // Opens a document with all that it holds. It needs no file but itself. undo_bytes: the memory for what led to its
 // solid; 0: that is not wanted.
 [[nodiscard]] Result<OpenedWork> open_document(const std::string& path, std::size_t undo_bytes = 0);
-// Opens the workpiece, whatever its source is: a document, which must hold one, a mesh file or a shape.
-[[nodiscard]] Result<OpenedWork> open_work(const sculpt::WorkpieceOptions& options, WorkerPool& pool,
-                                           std::size_t undo_bytes = 0);
+// Opens the workpiece of a document, which must hold one.
+[[nodiscard]] Result<OpenedWork> open_workpiece_of(const std::string& document, std::size_t undo_bytes = 0);
 
 // Takes over from the document, which is the options' workpiece, what it says of tool, material and mirror, where the
 // options leave it open. Changes nothing where the workpiece is no document.

@@ -17,6 +17,7 @@
 #include "session/state/governed.hpp"
 #include "session/state/session_settings.hpp"
 #include "tests/desk/viewed.hpp"
+#include "tests/session/carving_setup.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {
@@ -105,7 +106,7 @@ struct WatchedSession {
 
     Workplace place;
     std::shared_ptr<Watching> activity;
-    SessionSetup options;
+    SessionSetup options = carving_setup();
     SimulatedClock clock;
     std::unique_ptr<Desk> desk;
     std::optional<SteppedExecutor> executor;
@@ -408,7 +409,7 @@ TEST(SessionActivity, ThatGovernsHasNobodyChangeWhatIsFeltOrSeen) {
     }
     SessionState state = before;
     SessionOrders orders;
-    orders.carving.push_back(sculpt::SculptOrder{});
+    orders.carving.push_back(workpiece::CarveOrder{});
     keep_governed(before, state, orders, false);
     EXPECT_TRUE(orders.carving.empty());
     EXPECT_EQ(orders.messages.size(), 1u);

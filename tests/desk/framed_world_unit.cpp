@@ -10,6 +10,7 @@
 #include "session/drive/driver.hpp"
 #include "session/objects/object_turn.hpp"
 #include "session/state/session_settings.hpp"
+#include "tests/session/carving_setup.hpp"
 #include "tests/support/run_command.hpp"
 #include "wall/projection.hpp"
 
@@ -77,7 +78,7 @@ public:
     [[nodiscard]] double free_px() const { return desk->viewer().seen_from.free_width * kFramedWindow.width; }
     [[nodiscard]] const SessionState& state() const { return desk->session().state(); }
 
-    SessionSetup options;
+    SessionSetup options = carving_setup();
     SimulatedClock clock;
     std::unique_ptr<Desk> desk;
 

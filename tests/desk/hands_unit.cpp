@@ -19,6 +19,7 @@
 #include "session/drive/executors.hpp"
 #include "session/drive/thread_recorder.hpp"
 #include "session/state/session_settings.hpp"
+#include "tests/session/carving_setup.hpp"
 #include "tests/support/uneven_poses.hpp"
 
 namespace burin::session {
@@ -28,7 +29,7 @@ namespace {
 class HandsAtABall {
 public:
     explicit HandsAtABall(const std::vector<std::string>& devices) {
-        SessionSetup options;
+        SessionSetup options = carving_setup();
         options.carve.workpiece.source = "ball:0.1";
         options.carve.workpiece.resolution = 32;
         options.hands.tool.shape = "ball:0.012";
@@ -425,7 +426,7 @@ TEST(SessionHands, RefuseDevicesThatCannotBeTold) {
     EXPECT_TRUE(
         refused({"a=simulated", "b=simulated", "c=simulated", "d=simulated", "e=simulated"}).contains("4 hands"));
     EXPECT_EQ(refused({"simulated-wand:left=right.toml"}), "nothing") << "a file's name";
-    SessionSetup options;
+    SessionSetup options = carving_setup();
     ASSERT_TRUE(set_devices(options.hands, {"right=simulated", "left=simulatd"}));
     SimulatedClock clock;
     const auto opened = Desk::create(options, session_wall(options.desk).value(), clock);
@@ -456,7 +457,7 @@ TEST(SessionHands, ThePanelSaysWhoHoldsEachDevice) {
 }
 
 TEST(SessionHands, AThirdThatDoesNotOpenIsNamedWithItsDevice) {
-    SessionSetup options;
+    SessionSetup options = carving_setup();
     options.carve.workpiece.source = "ball:0.1";
     options.carve.workpiece.resolution = 16;
     ASSERT_TRUE(set_devices(options.hands, {"right=simulated", "left=simulated", "third=glove:/dev/none-there"}));
@@ -469,7 +470,7 @@ TEST(SessionHands, AThirdThatDoesNotOpenIsNamedWithItsDevice) {
 }
 
 TEST(SessionHands, AreKeptInTheFirstLineOfARecording) {
-    SessionSetup options;
+    SessionSetup options = carving_setup();
     options.record.input = "x";
     ASSERT_TRUE(set_devices(options.hands, {"right=simulated", "left=simulated-wand:my wand.toml"}));
     const auto again = options_as_recorded(settings_line(options), SessionSetup{});

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "desk/run/session.hpp"
+#include "tests/session/carving_setup.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {
@@ -25,7 +26,7 @@ std::string complaint_about(const std::string& lines) {
 }
 
 SessionSetup led_by(const std::string& log, const std::string& outputs) {
-    SessionSetup setup;
+    SessionSetup setup = carving_setup();
     setup.record.input = log;
     setup.work.outputs = outputs;
     return setup;
@@ -138,7 +139,7 @@ TEST(SessionOutputs, OfAUserTakeNoInputsPlace) {
 }
 
 TEST(SessionOutputs, OfAUserLieWhereTheUserSays) {
-    SessionSetup setup;
+    SessionSetup setup = carving_setup();
     setup.desk.screenshots = "shots";
     const SessionOutputs outputs(setup);
     EXPECT_EQ(outputs.place_of("/elsewhere/a.png", OutputKind::picture).value(), "/elsewhere/a.png");
@@ -164,7 +165,7 @@ TEST(SessionOutputs, AreFoundUnusableBeforeTheSession) {
 
 TEST(RunSession, RefusesALogWhoseCommandsAreWrongBeforeItLoadsAnything) {
     const Workplace place;
-    SessionSetup options;
+    SessionSetup options = carving_setup();
     options.carve.workpiece.source = "missing.off";
     options.record.input = (place / "script.txt").string();
     options.desk.offscreen = true;
@@ -183,7 +184,7 @@ TEST(RunSession, RefusesALogWhoseCommandsAreWrongBeforeItLoadsAnything) {
 }
 
 TEST(RunSession, RefusesAFolderOfOutputsWithoutALog) {
-    SessionSetup options;
+    SessionSetup options = carving_setup();
     options.work.outputs = "out";
     EXPECT_TRUE(wants_session(options));
     const auto outcome = run_session(options);
@@ -195,7 +196,7 @@ TEST(RunSession, RefusesAFolderOfOutputsWithoutALog) {
 // still being written.
 TEST(SessionOutputs, OfAUserTakeNoFilesPlaceButANumber) {
     const Workplace place;
-    SessionSetup setup;
+    SessionSetup setup = carving_setup();
     setup.desk.screenshots = (place / "").string();
     SessionOutputs outputs(setup);
     const auto name = [&] {

@@ -17,6 +17,7 @@
 #include "desk/live/desk.hpp"
 #include "desk/run/session_frames.hpp"
 #include "haptics/haptic_loop.hpp"
+#include "tests/session/carving_setup.hpp"
 #include "tests/support/run_command.hpp"
 #include "wall/projection.hpp"
 #include "wall/seen_place.hpp"
@@ -139,7 +140,7 @@ public:
     [[nodiscard]] Session& session() const { return desk->session(); }
     [[nodiscard]] const Viewer& viewer() const { return desk->viewer(); }
 
-    SessionSetup options;
+    SessionSetup options = carving_setup();
     wall::OutputPlace output{.size = kWindow};
     bool draws = true;   // the frames take what has changed of the surface
     bool tells = false;  // the session is told of its document, as a window's is

@@ -370,11 +370,11 @@ TEST(MouseOnSurface, RoomIsForWhoAddsAndLogsOfBeforeHaveNone) {
     given.carve.workpiece.room = 0.4;
     for (SessionSetup* options : {&person, &log, &given}) settle_room(*options, true);
     for (SessionSetup* options : {&cut, &added, &untouched}) settle_room(*options, false);
-    EXPECT_EQ(person.carve.workpiece.room, sculpt::kUsualRoom);
+    EXPECT_EQ(person.carve.workpiece.room, workpiece::kUsualRoom);
     EXPECT_EQ(log.carve.workpiece.room, 0.0);
     EXPECT_EQ(cut.carve.workpiece.room, 0.0);
     EXPECT_EQ(untouched.carve.workpiece.room, 0.0);
-    EXPECT_EQ(added.carve.workpiece.room, sculpt::kUsualRoom);
+    EXPECT_EQ(added.carve.workpiece.room, workpiece::kUsualRoom);
     EXPECT_EQ(given.carve.workpiece.room, 0.4);
 }
 

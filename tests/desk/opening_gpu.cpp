@@ -9,6 +9,7 @@
 #include "desk/opening/opening.hpp"
 #include "desk/run/session.hpp"
 #include "gpu/device.hpp"
+#include "tests/session/carving_setup.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/window/xvfb.hpp"
@@ -31,14 +32,16 @@ protected:
         wall = session_wall(options.desk).value();
     }
     [[nodiscard]] Result<Presenter> present() const { return Presenter::open(options.desk, wall); }
-    [[nodiscard]] Result<sculpt::MadeWorkpiece> make(OpeningSight& sight) const {
-        return make_in_sight(options.carve.workpiece, compute::engine_maker(options.carve.engine), 1, sight);
+    [[nodiscard]] Result<std::unique_ptr<workpiece::Workpiece>> make(OpeningSight& sight) const {
+        CarveOptions carve = options.carve;
+        carve.make_engine = compute::engine_maker(carve.engine);
+        return make_in_sight(carve, 1, sight);
     }
     static bool can_run(const std::string& program) {
         return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
     }
 
-    SessionSetup options;
+    SessionSetup options = carving_setup();
     SessionWall wall;
 };
 
@@ -51,7 +54,7 @@ TEST_F(Opening, ShowsPicturesBeforeTheSolidIsThere) {
     const auto made = open_before_eyes(*presenter, options, wall, [&](OpeningSight& sight) {
         EXPECT_TRUE(sight.wait_for_pictures(1));
         before_the_mesh = sight.pictures();
-        sculpt::LoadWatch watch{&sight.work()};
+        workpiece::LoadWatch watch{&sight.work()};
         watch.look = [&](const geometry::TriangleMesh& mesh) {
             EXPECT_STREQ(sight.work().look().step, "reading the file");
             auto drawn = picture::drawn_mesh(mesh);
@@ -60,14 +63,15 @@ TEST_F(Opening, ShowsPicturesBeforeTheSolidIsThere) {
             EXPECT_TRUE(sight.wait_for_pictures(so_far + 1)) << "the file's mesh is seen";
             with_the_mesh = sight.pictures();
         };
-        return sculpt::make_workpiece(options.carve.workpiece, compute::engine_maker(options.carve.engine), 1, watch);
+        return sculpt::make_carved_workpiece(options.carve.workpiece, {}, compute::engine_maker(options.carve.engine),
+                                             1, watch);
     });
     ASSERT_TRUE(made) << made.error().line();
     ASSERT_TRUE(*made);
     EXPECT_GE(before_the_mesh, 1u);
     EXPECT_GT(with_the_mesh, before_the_mesh);
     EXPECT_GE(presenter->presented(), with_the_mesh);
-    EXPECT_GT((*made)->carving->surface().triangles(), 0u);
+    EXPECT_GT((*made)->surface().triangles(), 0u);
 }
 
 TEST_F(Opening, NamesTheFileInTheTitleOfItsWindow) {

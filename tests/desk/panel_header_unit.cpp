@@ -9,6 +9,7 @@
 #include "compute/engine/chosen_engine.hpp"
 #include "desk/live/desk.hpp"
 #include "tests/desk/panel_models.hpp"
+#include "tests/session/carving_setup.hpp"
 
 namespace burin::session {
 namespace {
@@ -38,7 +39,7 @@ TEST(PanelHeader, KeepsALongNameOffTheFramesPerSecond) {
 }
 
 TEST(PanelHeader, ShowsTheWorkpiecesSizeInMillimetres) {
-    SessionSetup options;
+    SessionSetup options = carving_setup();
     options.carve.workpiece = {"block:0.05,0.04,0.0305", 32, false};
     options.carve.engine = compute::EngineChoice::cpu;
     SimulatedClock clock;

@@ -19,6 +19,7 @@
 #include "gpu/device.hpp"
 #include "session/drive/executors.hpp"
 #include "tests/desk/validated_desk.hpp"
+#include "tests/session/carving_setup.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {
@@ -99,7 +100,7 @@ protected:
                 const std::set<int>& minimised = {}, const DirectDriver& driver = direct_driver()) {
         std::filesystem::create_directory(place / folder);
         shown.screenshots = (place / folder).string();
-        SessionSetup options;
+        SessionSetup options = carving_setup();
         options.carve.workpiece = {"ball:0.1", 32, false};
         options.hands.tool.shape = "ball:0.012";
         options.desk = shown;

@@ -30,6 +30,7 @@
 #include "session/state/session_settings.hpp"
 #include "tests/desk/threads_seen.hpp"
 #include "tests/geometry/touch_samples.hpp"
+#include "tests/session/carving_setup.hpp"
 #include "tests/support/paced_clock.hpp"
 
 namespace burin::session {
@@ -50,7 +51,7 @@ inline const std::string kShortScript = R"(burin-input 1 test
 )";
 
 inline SessionSetup short_options(const std::string& record) {
-    SessionSetup options;
+    SessionSetup options = carving_setup();
     options.carve.workpiece.resolution = 32;
     options.hands.tool.shape = "ball:0.012";
     options.carve.engine = compute::EngineChoice::cpu;
@@ -277,7 +278,7 @@ private:
 
 // A block between the fingers of a hand.
 inline SessionSetup grasp_options(const std::string& record, std::shared_ptr<Grasping> activity) {
-    SessionSetup options;
+    SessionSetup options = carving_setup();
     options.scene.no_workpiece = true;
     options.threads = 1;
     options.hands.tool.shape = "ball:0.005";

@@ -26,6 +26,7 @@
 #include "picture/png.hpp"
 #include "tests/desk/fake_display.hpp"
 #include "tests/desk/played_session.hpp"
+#include "tests/session/carving_setup.hpp"
 #include "tests/support/places.hpp"
 #include "tests/window/xvfb.hpp"
 #include "wall/wall_file.hpp"
@@ -90,7 +91,7 @@ protected:
         return live;
     }
     SessionSetup sculpt(const DeskOptions& live) {
-        SessionSetup options;
+        SessionSetup options = carving_setup();
         options.carve.workpiece = {"ball:0.1", 32, false};
         options.hands.tool.shape = "ball:0.012";
         options.desk = live;

@@ -12,7 +12,7 @@
 #include "devices/haptic/simulated_wand.hpp"
 #include "haptics/channels.hpp"
 #include "sculpt/carved_scene.hpp"
-#include "sculpt/workpiece.hpp"
+#include "sculpt/load_workpiece.hpp"
 #include "tests/support/test_units.hpp"
 
 namespace burin::session {
@@ -71,7 +71,7 @@ struct Parts {
         return clock;
     }
     static std::unique_ptr<compute::CarvingEngine> engine(WorkerPool& pool) {
-        Result<sculpt::LoadedWorkpiece> workpiece = sculpt::load_workpiece({"ball:0.05", 16, false}, pool);
+        Result<workpiece::LoadedWorkpiece> workpiece = sculpt::load_workpiece({"ball:0.05", 16, false}, pool);
         return compute::make_cpu_engine(std::move(workpiece->solid), pool);
     }
     [[nodiscard]] std::uint64_t ticks() const { return loop.ticks(); }

@@ -7,6 +7,7 @@
 #include "desk/panel/panel.hpp"
 #include "desk/run/session.hpp"
 #include "tests/desk/viewed.hpp"
+#include "tests/session/carving_setup.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/test_units.hpp"
@@ -23,7 +24,7 @@ Viewed before(const std::string& wall) {
 // Returns how far the scene moved with a wand that pressed its first button where it pointed at the main screen from x,
 // y, and was then raised by 10 cm.
 double carried_m(double x_world, double y_world) {
-    SessionSetup options;
+    SessionSetup options = carving_setup();
     options.carve.workpiece = {"ball:0.1", 32, false};
     options.carve.engine = compute::EngineChoice::cpu;
     options.desk.wall = std::string(kWallsFolder) + "/powerwall.toml";
@@ -45,7 +46,7 @@ double carried_m(double x_world, double y_world) {
 // Returns how many files a session asks for when a log wants a mesh and a picture in each of two ways.
 std::size_t files_asked_for(bool writes_nothing) {
     const Workplace place;
-    SessionSetup options;
+    SessionSetup options = carving_setup();
     options.carve.workpiece = {"ball:0.1", 32, false};
     options.carve.engine = compute::EngineChoice::cpu;
     options.record.input = "script.txt";
@@ -224,7 +225,7 @@ TEST(Desk, ThatWritesNothingOrdersNeitherMeshesNorPictures) {
 }
 
 TEST(Desk, OffersToolSizesThatSuitItsWorkpiece) {
-    SessionSetup options;
+    SessionSetup options = carving_setup();
     options.carve.workpiece = {"ball:0.01", 32, false};
     options.carve.engine = compute::EngineChoice::cpu;
     SimulatedClock clock;
@@ -253,7 +254,7 @@ TEST(Desk, OffersToolSizesThatSuitItsWorkpiece) {
 
 // The mouse in the panel's own window works the panel and not the scene, and the other way round; the picture has none.
 TEST(LivePanel, IsWorkedInItsOwnWindowAlone) {
-    SessionSetup options;
+    SessionSetup options = carving_setup();
     options.carve.workpiece = {"ball:0.02", 16, false};
     options.hands.tool.shape = "ball:0.001";
     options.carve.engine = compute::EngineChoice::cpu;
@@ -306,7 +307,7 @@ namespace {
 // A script that refuses to begin needs no graphics device.
 SessionSetup scripted(const Workplace& place, const std::string& script) {
     place.write("script.txt", "burin-input 1\n" + script);
-    SessionSetup options;
+    SessionSetup options = carving_setup();
     options.carve.workpiece = {"ball:0.1", 32, false};
     options.record.input = (place / "script.txt").string();
     options.desk.offscreen = true;

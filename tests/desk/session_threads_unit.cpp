@@ -7,12 +7,12 @@
 #include <stdexcept>
 #include <vector>
 
-#include "compute/engine/chosen_engine.hpp"
 #include "desk/run/session_frames.hpp"
 #include "session/drive/thread_replay.hpp"
 #include "session/record/tick_source.hpp"
 #include "session/state/session_settings.hpp"
 #include "tests/desk/threads_seen.hpp"
+#include "tests/session/carving_setup.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {
@@ -41,7 +41,7 @@ const std::string kScript = R"(burin-input 1 test
 )";
 
 SessionSetup options_for(const std::string& record) {
-    SessionSetup options;
+    SessionSetup options = carving_setup();
     options.carve.workpiece.resolution = 32;
     options.hands.tool.shape = "ball:0.012";
     options.carve.engine = compute::EngineChoice::cpu;
@@ -458,7 +458,7 @@ TEST(SessionSettings, AreThoseOfTheRecording) {
     EXPECT_EQ(settings_line(same->options), line);
     EXPECT_TRUE(same->overruled.empty());  // nothing else was asked for
 
-    SessionSetup other;
+    SessionSetup other = carving_setup();
     other.hands.tool.shape = "ball:0.02";
     other.desk.screenshots = "here";
     const auto overruled = options_as_recorded(line, other);
@@ -477,7 +477,7 @@ TEST(SessionSettings, AreThoseOfTheRecording) {
 
 TEST(Recordings, FromBeforeThereWereUnitsAreReadInMetresWhateverTheFileLooksLike) {
     const SessionSetup none;
-    SessionSetup given;
+    SessionSetup given = carving_setup();
     given.carve.workpiece.units = LengthUnit::mm;
     for (const std::string line : {"burin sculpt --workpiece part.stl --tool ball:0.02", "somebody's own"}) {
         const auto old = options_as_recorded(line, none);

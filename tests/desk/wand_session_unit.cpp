@@ -10,6 +10,7 @@
 #include "devices/haptic/wand_file.hpp"
 #include "haptics/channels.hpp"
 #include "session/state/session_settings.hpp"
+#include "tests/session/carving_setup.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {
@@ -65,7 +66,7 @@ public:
         return testing::internal::GetCapturedStderr();
     }
 
-    SessionSetup options;
+    SessionSetup options = carving_setup();
     SimulatedClock clock;
     std::unique_ptr<Desk> desk;
     haptics::TickRecord last;
@@ -201,7 +202,7 @@ TEST(WandSession, IsCalibratedInItsJigWithinTheToleranceAlone) {
 // ---- Options of a recording
 
 TEST(WandSession, ARecordingNamesDeviceAndPoints) {
-    SessionSetup options;
+    SessionSetup options = carving_setup();
     options.hands.points = "top,centre";
     options.hands.device = "simulated-wand:w.toml";
     const std::string line = settings_line(options);

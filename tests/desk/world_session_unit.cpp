@@ -12,6 +12,7 @@
 #include "session/drive/executors.hpp"
 #include "session/state/session_commands.hpp"
 #include "session/state/session_settings.hpp"
+#include "tests/session/carving_setup.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {
@@ -64,7 +65,7 @@ public:
         return std::ranges::find(all, stiffness_N_per_m) != all.end();
     }
 
-    SessionSetup options;
+    SessionSetup options = carving_setup();
     SimulatedClock clock;
     std::unique_ptr<Desk> desk;
 

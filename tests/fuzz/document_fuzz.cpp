@@ -17,9 +17,9 @@
 #include "document/document_reader.hpp"
 #include "document/journal.hpp"
 #include "document/log_check.hpp"
-#include "sculpt/saved_changes.hpp"
-#include "sculpt/saved_solid.hpp"
 #include "tests/fuzz/changed_file.hpp"
+#include "workpiece/saved_changes.hpp"
+#include "workpiece/saved_solid.hpp"
 
 namespace {
 
@@ -30,11 +30,11 @@ void check_error(const Error& error) { require(!error.what.empty() && !error.whe
 
 // A solid whose pages are whole must say the same when it is saved again.
 void load(const scene::Pages& pages) {
-    const Result<sculpt::LoadedSolid> loaded = sculpt::load_solid(pages, "fuzz");
+    const Result<workpiece::LoadedSolid> loaded = workpiece::load_solid(pages, "fuzz");
     if (!loaded) return check_error(loaded.error());
     if (!loaded->lost.empty()) return;
     scene::Pages again;
-    sculpt::save_solid(loaded->solid, sculpt::ChangedPages(loaded->solid.lattice), again);
+    workpiece::save_solid(loaded->solid, workpiece::ChangedPages(loaded->solid.lattice), again);
     for (const auto& [name, bytes] : again.pages)
         if (name.kind != "head") require(pages.find(name) != nullptr && *pages.find(name) == bytes);
 }
@@ -48,7 +48,7 @@ void read_steps(document::DocumentReader& reader, const document::PartPlace& par
     for (std::int64_t number = (*steps)->done; number >= std::max((*steps)->first, (*steps)->done - 4); --number) {
         const auto pages = reader.step(part, number);
         if (!pages) return check_error(pages.error());
-        auto step = sculpt::step_in(solid, *pages, "fuzz");
+        auto step = workpiece::step_in(solid, *pages, "fuzz");
         if (!step) return check_error(step.error());
         if (!history.put_before(std::move(*step))) return;
     }
@@ -65,7 +65,7 @@ void read_file(const std::string& path) {
             continue;
         }
         load(*pages);
-        Result<sculpt::LoadedSolid> solid = sculpt::load_solid(*pages, "fuzz");
+        Result<workpiece::LoadedSolid> solid = workpiece::load_solid(*pages, "fuzz");
         compute::History history(std::size_t{1} << 20);
         if (solid) read_steps(*reader, part, solid->solid, history);
         for (std::int64_t number = 1; solid && number <= std::min<std::int64_t>(reader->changes(), 4); ++number) {
@@ -74,7 +74,7 @@ void read_file(const std::string& path) {
                 check_error(change.error());
                 break;
             }
-            if (const auto done = sculpt::apply_change(solid->solid, *change, "fuzz", &history); !done)
+            if (const auto done = workpiece::apply_change(solid->solid, *change, "fuzz", &history); !done)
                 check_error(done.error());
         }
     }
@@ -91,15 +91,15 @@ std::vector<std::uint8_t> sound_file() {
     const std::string path = own_path(".burin");
     compute::Solid solid = small_solid();
     document::Content content{.facts = {{"unit", "mm"}}, .commands = {"tool ball:0.01"}};
-    sculpt::save_solid(solid, sculpt::ChangedPages(solid.lattice), content.parts.emplace_back());
+    workpiece::save_solid(solid, workpiece::ChangedPages(solid.lattice), content.parts.emplace_back());
     compute::RayBatch stroke;
     stroke.add(shared::ray_code(1, 2, 2), solid.sets[1].ends(2, 2));
     compute::History history;
     require(history.put_before(std::move(stroke)));
-    sculpt::save_steps(history, content.parts[0]);
+    workpiece::save_steps(history, content.parts[0]);
     Result<document::Journal> journal = document::Journal::begin(path, content);
     require(journal.has_value());
-    sculpt::ChangedRays changed(solid.lattice);
+    workpiece::ChangedRays changed(solid.lattice);
     compute::Changes changes;
     changes.record({0, 1, 1}, 0, 1, solid.sets[0].ends(1, 1));
     changed.note(changes);
@@ -125,7 +125,7 @@ void read_pages(const std::uint8_t* data, std::size_t size) {
     if (size < 2) return;
     scene::Pages pages;
     const compute::Solid solid = small_solid();
-    sculpt::save_solid(solid, sculpt::ChangedPages(solid.lattice), pages);
+    workpiece::save_solid(solid, workpiece::ChangedPages(solid.lattice), pages);
     auto at = pages.pages.begin();
     std::advance(at, data[0] % pages.pages.size());
     if (data[0] < 128) {
@@ -136,10 +136,10 @@ void read_pages(const std::uint8_t* data, std::size_t size) {
     }
     load(pages);
     compute::Solid changed = small_solid();
-    scene::Pages change{.part = std::string(sculpt::kSolidPart), .whole = false};
+    scene::Pages change{.part = std::string(workpiece::kSolidPart), .whole = false};
     change.pages[{"head", 0}] = *pages.find({"head", 0});
     change.pages[{"rays", 0}] = bytes_of(data + 1, size - 1);
-    if (const auto done = sculpt::apply_change(changed, change, "fuzz"); !done) check_error(done.error());
+    if (const auto done = workpiece::apply_change(changed, change, "fuzz"); !done) check_error(done.error());
 }
 
 void read_log(const std::uint8_t* data, std::size_t size) {

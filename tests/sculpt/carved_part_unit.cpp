@@ -12,7 +12,7 @@
 #include "haptics/tick.hpp"
 #include "scene/scene_thread.hpp"
 #include "sculpt/carved_scene.hpp"
-#include "sculpt/workpiece.hpp"
+#include "sculpt/load_workpiece.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::sculpt {
@@ -85,7 +85,7 @@ TEST(CarvedPart, OneStrokeIsOneUndoAndNewsTellOnlyWhatChanged) {
     EXPECT_GT(carved->cut_ns, 0);
     EXPECT_FALSE(carved->tiles.empty());
     EXPECT_LT(carved->tiles.size(), first->tiles.size());
-    bench.desk.order(UndoStroke{});
+    bench.desk.order(workpiece::UndoStroke{});
     const auto undone = bench.desk.take_surface_update();
     ASSERT_TRUE(undone);
     EXPECT_EQ(undone->undoable, 0u);
@@ -117,9 +117,9 @@ TEST(CarvedPart, CarvesAndTakesOrdersBesideTheFrame) {
         return false;
     };
     ASSERT_TRUE(wait_until([](const scene::SurfaceUpdate& n) { return n.undoable == 1; }));
-    thread.order([&] { bench.desk.order(UndoStroke{}); });
+    thread.order([&] { bench.desk.order(workpiece::UndoStroke{}); });
     ASSERT_TRUE(wait_until([](const scene::SurfaceUpdate& n) { return n.redoable == 1; }));
-    thread.order([&] { bench.desk.order(RedoStroke{}); });
+    thread.order([&] { bench.desk.order(workpiece::RedoStroke{}); });
     thread.stop();  // carries out what was ordered
     EXPECT_FALSE(thread.failure());
     EXPECT_EQ(bench.carving.history()->undoable(), 1u);
@@ -144,7 +144,7 @@ void release_at(Bench& bench, double x) { bench.sample({x, 0.0, 0.2}, false); }
 void expect_each_is_undone_alone(Bench& bench, const std::vector<double>& strokes) {
     for (std::size_t left = strokes.size(); left-- > 0;) {
         ASSERT_EQ(bench.carving.history()->undoable(), left + 1);
-        bench.desk.order(UndoStroke{});
+        bench.desk.order(workpiece::UndoStroke{});
         Bench alone;
         for (std::size_t i = 0; i < left; ++i) {
             press_at(alone, strokes[i]);
@@ -195,9 +195,9 @@ TEST(CarvedPart, AnUndoWhileTheHandStillCutsTakesBackTheWholeStroke) {
     const double whole_m3 = bench.carving.surface().volume_m3();
     for (int i = 0; i < 5; ++i) bench.sample({0.01 * i - 0.05, 0.0, 0.1}, true);
     ASSERT_TRUE(bench.desk.update(10'000'000));
-    bench.desk.order(UndoStroke{});
-    bench.desk.order(RedoStroke{});
-    bench.desk.order(UndoStroke{});
+    bench.desk.order(workpiece::UndoStroke{});
+    bench.desk.order(workpiece::RedoStroke{});
+    bench.desk.order(workpiece::UndoStroke{});
     for (int i = 5; i < 10; ++i) bench.sample({0.01 * i - 0.05, 0.0, 0.1}, true);
     ASSERT_TRUE(bench.desk.update(20'000'000));
     EXPECT_LT(bench.carving.surface().volume_m3(), whole_m3) << "it waits";
@@ -205,7 +205,7 @@ TEST(CarvedPart, AnUndoWhileTheHandStillCutsTakesBackTheWholeStroke) {
     ASSERT_TRUE(bench.desk.update(30'000'000));
     EXPECT_EQ(bench.carving.surface().volume_m3(), whole_m3);
     static_cast<void>(bench.desk.take_surface_update());
-    bench.desk.order(RedoStroke{});
+    bench.desk.order(workpiece::RedoStroke{});
     const auto news = bench.desk.take_surface_update();
     ASSERT_TRUE(news);
     EXPECT_EQ(news->undoable, 1u);
@@ -218,7 +218,7 @@ TEST(CarvedPart, AnUndoWaitsNoLongerThanAHandIsLate) {
     const double whole_m3 = bench.carving.surface().volume_m3();
     bench.sample({0.0, 0.0, 0.1}, true);  // and no more: a device that is lost with its button down
     ASSERT_TRUE(bench.desk.update(10'000'000));
-    bench.desk.order(UndoStroke{});
+    bench.desk.order(workpiece::UndoStroke{});
     ASSERT_TRUE(bench.desk.update(20'000'000));
     EXPECT_LT(bench.carving.surface().volume_m3(), whole_m3);
     ASSERT_TRUE(bench.desk.update(20'000'000 + CarvedPart::kMostWait_ns));
@@ -230,14 +230,14 @@ TEST(CarvedPart, AnExportInMidStrokeEndsTheStroke) {
     Bench bench;
     press_at(bench, -0.05);
     ASSERT_TRUE(bench.desk.update(0));
-    bench.desk.order(ExportSurface{(place / "part.stl").string()});
+    bench.desk.order(workpiece::ExportSurface{(place / "part.stl").string()});
     const compute::Solid exported = bench.carving.engine().solid();
     bench.desk.finish_export();
     press_at(bench, 0.05);  // the button is still down
     release_at(bench, 0.05);
     ASSERT_TRUE(bench.desk.update(0));
     EXPECT_EQ(bench.carving.history()->undoable(), 2u);
-    bench.desk.order(UndoStroke{});
+    bench.desk.order(workpiece::UndoStroke{});
     EXPECT_TRUE(bench.carving.engine().solid().same_content(exported));
 }
 
@@ -342,12 +342,12 @@ TEST(CarvedPart, NothingIsCarvedWhileTheWorkspaceMoves) {
 TEST(CarvedPart, FillingWorksWhereTheToolRestsAndPaintingOnlyWhereItTouches) {
     {
         Bench bench;  // the hand is deep inside, where there is nothing to fill
-        bench.desk.order(UseTool{tool_for(compute::Operation::fill), {"skin"}, 0.0});
+        bench.desk.order(workpiece::UseTool{tool_for(compute::Operation::fill), {"skin"}, 0.0});
         push(bench, Vec3(0.0), {0.0, 0.0, 0.11}, haptics::kTickInContact);
         EXPECT_GT(changed_rays(bench), 0u);
     }
     Bench bench;
-    bench.desk.order(UseTool{tool_for(compute::Operation::paint), {"paint", {255, 0, 0}}, 0.0});
+    bench.desk.order(workpiece::UseTool{tool_for(compute::Operation::paint), {"paint", {255, 0, 0}}, 0.0});
     push(bench, {0.0, 0.0, 0.1}, {0.0, 0.0, 0.1}, 0);
     EXPECT_EQ(changed_rays(bench), 0u) << "in the air";
     push(bench, {0.0, 0.0, 0.1}, {0.0, 0.0, 0.12}, haptics::kTickInContact);
@@ -359,14 +359,14 @@ TEST(CarvedPart, AToolThatCannotSmoothCarvesNothingSaysWhyAndLeavesTheRestAlone)
     // More than a hundred cells of 6.25 mm.
     toolbox::Tool smooth = tool_for(compute::Operation::smooth);
     smooth.shape = compute::BallTool{0.7};
-    bench.desk.order(UseTool{smooth, {"skin"}, 0.0});
+    bench.desk.order(workpiece::UseTool{smooth, {"skin"}, 0.0});
     ASSERT_TRUE(bench.desk.update(0));
     EXPECT_TRUE(said(bench, "too large"));
     bench.stroke();
     ASSERT_TRUE(bench.desk.update(0)) << "a session does not end for it";
     EXPECT_TRUE(said(bench, "too large")) << "nor leaves it unexplained why nothing happens";
     EXPECT_EQ(changed_rays(bench), 0u) << "with this tool or the one before";
-    bench.desk.order(UseTool{Bench::tool(), {"skin"}, 0.0});
+    bench.desk.order(workpiece::UseTool{Bench::tool(), {"skin"}, 0.0});
     bench.stroke();
     EXPECT_GT(changed_rays(bench), 0u);
 }
@@ -385,11 +385,11 @@ TEST(CarvedPart, ASampleThatCannotBeCarvedIsLeftOutAndSaidOnceAStroke) {
 TEST(CarvedPart, ExportsAFarWorkpieceOnlyWhereNumbersSuffice) {
     const Workplace place;
     Bench bench{Vec3(1e6, 0.0, 0.0)};
-    bench.desk.order(ExportSurface{(place / "far.stl").string()});
+    bench.desk.order(workpiece::ExportSurface{(place / "far.stl").string()});
     bench.desk.finish_export();
     EXPECT_TRUE(said(bench, "single-precision"));
     EXPECT_EQ(place.files(), 0u);
-    bench.desk.order(ExportSurface{(place / "far.obj").string()});
+    bench.desk.order(workpiece::ExportSurface{(place / "far.obj").string()});
     bench.desk.finish_export();
     EXPECT_TRUE(said(bench, "exported"));
     EXPECT_EQ(place.files(), 1u);
@@ -404,7 +404,7 @@ TEST(CarvedPart, AnotherToolBeginsWhereItIsAndNotWhereTheOldOneWas) {
             bench.sample({-0.08, 0.0, 0.2}, false);
             EXPECT_TRUE(bench.desk.update(0));
         }
-        bench.desk.order(UseTool{Bench::tool(), {"skin"}, 0.0});
+        bench.desk.order(workpiece::UseTool{Bench::tool(), {"skin"}, 0.0});
         bench.sample({0.08, 0.0, 0.08}, true);
         EXPECT_TRUE(bench.desk.update(0));
         return bench.carving.engine().solid();

@@ -7,8 +7,8 @@
 
 #include "geometry/mesh/mesh_health.hpp"
 #include "sculpt/finishing.hpp"
+#include "sculpt/load_workpiece.hpp"
 #include "sculpt/sculpture.hpp"
-#include "sculpt/workpiece.hpp"
 
 namespace burin::sculpt {
 namespace {

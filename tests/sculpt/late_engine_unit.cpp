@@ -78,8 +78,8 @@ struct LateBench {
             s.sample.buttons = number % 8 != 7 && number != 12 ? 1u : 0u;
             ASSERT_TRUE(channels.ticks.push(s));
         }
-        if (number == 16) desk.order(UndoStroke{});
-        if (number == 17) desk.order(RedoStroke{});
+        if (number == 16) desk.order(workpiece::UndoStroke{});
+        if (number == 17) desk.order(workpiece::RedoStroke{});
         ASSERT_TRUE(recorded != nullptr ? desk.service().repeat(*recorded)
                                         : desk.service().update(number * Nanoseconds{10'000'000}));
         seen.push_back(desk.service().seen());

@@ -19,10 +19,10 @@ TEST(MadeWorkpiece, TellsItsStepsAndEndsWithAllOfThemDone) {
     WorkWatch work;
     std::size_t triangles = 0;
     std::string at_look;
-    const LoadWatch watch{&work, [&](const geometry::TriangleMesh& mesh) {
-                              triangles = mesh.triangles.size();
-                              at_look = work.look().step;
-                          }};
+    const workpiece::LoadWatch watch{&work, [&](const geometry::TriangleMesh& mesh) {
+                                         triangles = mesh.triangles.size();
+                                         at_look = work.look().step;
+                                     }};
     const auto made = make_workpiece({.source = kBallOfAFile, .resolution = 32}, compute::on_processor, 1, watch);
     ASSERT_TRUE(made) << made.error().line();
     EXPECT_EQ(at_look, "reading the file");

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sculpt/load_workpiece.hpp"
 #include "sculpt/sculpture.hpp"
-#include "sculpt/workpiece.hpp"
 
 namespace burin::sculpt {
 namespace {
@@ -26,11 +26,11 @@ struct MirroredBlock {
         block.lattice.origin_object += Vec3(0.013, -0.021, 0.007);
         return compute::make_cpu_engine(std::move(block), pool);
     }
-    [[nodiscard]] Vec3 middle() const { return workpiece_bounds(carving.surface().lattice()).center(); }
+    [[nodiscard]] Vec3 middle() const { return workpiece::workpiece_bounds(carving.surface().lattice()).center(); }
     // How much a stroke near the corner of the largest x, y and z takes away, on one side of each plane.
     double removed(const compute::ToolShape& shape, const toolbox::Mirror& mirror) {
         carving.mirror(mirror);
-        const Box box = workpiece_bounds(carving.surface().lattice());
+        const Box box = workpiece::workpiece_bounds(carving.surface().lattice());
         const Quat leans = glm::angleAxis(0.5, glm::normalize(Vec3(0.3, 0.2, 1.0)));
         const Quat turned = glm::angleAxis(0.9, glm::normalize(Vec3(1.0, -0.4, 0.3))) * leans;
         const compute::ToolSweep sweep{

@@ -8,7 +8,7 @@
 #include "compute/engine/engine.hpp"
 #include "haptics/channels.hpp"
 #include "sculpt/carved_scene.hpp"
-#include "sculpt/workpiece.hpp"
+#include "sculpt/load_workpiece.hpp"
 
 namespace burin::sculpt {
 namespace {
@@ -49,7 +49,7 @@ Added half_ball_on_top(double room) {
 }  // namespace
 
 TEST(RoomAround, HoldsWhatIsAddedOnTop) {
-    const Added with = half_ball_on_top(kUsualRoom);
+    const Added with = half_ball_on_top(workpiece::kUsualRoom);
     EXPECT_NEAR(with.of_half_ball, 1.0, 0.02);
     EXPECT_TRUE(with.told.empty());
 }

@@ -14,7 +14,7 @@
 #include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "sculpt/carved_scene.hpp"
-#include "sculpt/workpiece.hpp"
+#include "sculpt/load_workpiece.hpp"
 #include "toolbox/feel_options.hpp"
 #include "toolbox/felt_tool.hpp"
 
@@ -150,9 +150,9 @@ inline Vec3 block_from_device() {
 inline Groove carve_groove(devices::AnyHand hand, double duration_s,
                            const std::function<void(Nanoseconds)>& before_tick) {
     WorkerPool pool(1);
-    WorkpieceOptions block{"block:" + std::to_string(kGrooveBlock_m.x) + "," + std::to_string(kGrooveBlock_m.y) + "," +
-                               std::to_string(kGrooveBlock_m.z),
-                           static_cast<int>(std::lround(kGrooveBlock_m.x / kGrooveCell_m)), false};
+    workpiece::WorkpieceOptions block{"block:" + std::to_string(kGrooveBlock_m.x) + "," +
+                                          std::to_string(kGrooveBlock_m.y) + "," + std::to_string(kGrooveBlock_m.z),
+                                      static_cast<int>(std::lround(kGrooveBlock_m.x / kGrooveCell_m)), false};
     Sculpture carving(compute::make_cpu_engine(std::move(load_workpiece(block, pool)->solid), pool), pool);
     // Without a yield, below which a material would hide what the hand does.
     const toolbox::Feel feel = *toolbox::parse_feel({.yield_kPa = 0.0});

@@ -12,7 +12,7 @@
 #include "compute/engine/engine.hpp"
 #include "haptics/channels.hpp"
 #include "sculpt/carved_scene.hpp"
-#include "sculpt/workpiece.hpp"
+#include "sculpt/load_workpiece.hpp"
 
 namespace burin::sculpt {
 namespace {

@@ -10,13 +10,14 @@
 #include "base/clock.hpp"
 #include "compute/engine/chosen_engine.hpp"
 #include "session/live/session.hpp"
+#include "tests/session/carving_setup.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {
 namespace {
 
 SessionSetup small_ball(compute::EngineChoice engine) {
-    SessionSetup options;
+    SessionSetup options = carving_setup();
     options.carve.workpiece = {.source = "ball:0.1", .resolution = 16};
     options.carve.engine = engine;
     options.threads = 1;
@@ -41,6 +42,15 @@ TEST(SessionAlone, CarvesWithTheProcessorAndRefusesADeviceThatNobodyGaveIt) {
     const auto refused = Session::create(small_ball(compute::EngineChoice::vulkan), clock);
     ASSERT_FALSE(refused);
     EXPECT_TRUE(refused.error().line().contains("--engine vulkan")) << refused.error().line();
+}
+
+TEST(SessionAlone, SaysThatNobodyMakesItsWorkpiece) {
+    SimulatedClock clock;
+    SessionSetup options = small_ball(compute::EngineChoice::cpu);
+    options.carve.make_workpiece = nullptr;
+    const auto refused = Session::create(options, clock);
+    ASSERT_FALSE(refused);
+    EXPECT_TRUE(refused.error().line().starts_with("workpiece ball:0.1:")) << refused.error().line();
 }
 
 TEST(SessionAlone, CarvesWithTheEngineThatItsOpenerMakes) {

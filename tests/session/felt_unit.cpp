@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "haptics/forces/cutting.hpp"
-#include "sculpt/workpiece.hpp"
+#include "sculpt/load_workpiece.hpp"
 #include "session/felt/felt_stroke.hpp"
 #include "tests/haptics/cutting_ball.hpp"
 #include "tests/support/run_command.hpp"
@@ -28,7 +28,7 @@ struct Felt {
 Felt felt_on(const std::string& block, int resolution, const toolbox::Tool& tool, const sculpt::Stroke& stroke,
              const toolbox::FeelOptions& options) {
     WorkerPool pool(2);
-    Result<sculpt::LoadedWorkpiece> workpiece = sculpt::load_workpiece({block, resolution, false}, pool);
+    Result<workpiece::LoadedWorkpiece> workpiece = sculpt::load_workpiece({block, resolution, false}, pool);
     sculpt::Sculpture carving(compute::make_cpu_engine(std::move(workpiece->solid), pool), pool);
     Felt felt;
     felt.figures = *carve_by_feel(carving, stroke, tool, {*toolbox::parse_feel(options), false});

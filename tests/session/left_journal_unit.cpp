@@ -11,6 +11,7 @@
 #include "document/journal.hpp"
 #include "record/database.hpp"
 #include "scene/saved_objects.hpp"
+#include "sculpt/load_workpiece.hpp"
 #include "sculpt/sculpture.hpp"
 #include "session/live/document_side.hpp"
 #include "session/work/journal_folder.hpp"

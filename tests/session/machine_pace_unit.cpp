@@ -8,6 +8,7 @@
 #include "sculpt/made_workpiece.hpp"
 #include "session/hands/machine_pace.hpp"
 #include "session/live/session.hpp"
+#include "tests/session/carving_setup.hpp"
 
 namespace burin::session {
 
@@ -27,13 +28,13 @@ TEST(MachinePace, AsMeasuredIsSensible) {
 }
 
 TEST(MachinePace, IsOneForAScriptAndThatOfTheSessionInAllItsParameters) {
-    SessionSetup options;
+    SessionSetup options = carving_setup();
     options.carve.workpiece.resolution = 16;
     options.carve.engine = compute::EngineChoice::cpu;
     for (const double pace : {1.0, 1.7}) {
         SimulatedClock clock;
         auto session =
-            pace == 1.0 ? Session::create(options, clock) : Session::create(options, clock, pace, std::nullopt, {});
+            pace == 1.0 ? Session::create(options, clock) : Session::create(options, clock, pace, nullptr, {});
         ASSERT_TRUE(session);
         Session& s = **session;
         EXPECT_EQ(s.channels().parameters.newest().work.pace, pace);

@@ -11,11 +11,12 @@
 
 #include "document/journal.hpp"
 #include "record/database.hpp"
-#include "sculpt/saved_changes.hpp"
+#include "sculpt/load_workpiece.hpp"
 #include "sculpt/sculpture.hpp"
 #include "session/work/opened_work.hpp"
 #include "tests/support/run_command.hpp"
 #include "toolbox/tool_options.hpp"
+#include "workpiece/saved_changes.hpp"
 
 namespace burin::session {
 namespace {
@@ -75,7 +76,7 @@ protected:
     }
     // Goes on with what a file holds, as another session does; returns what is told to be lost.
     std::string open(const std::string& file, std::size_t undo_bytes = kUndo_bytes) {
-        Result<OpenedWork> opened = open_work({.source = file}, pool, undo_bytes);
+        Result<OpenedWork> opened = open_workpiece_of(file, undo_bytes);
         EXPECT_TRUE(opened) << opened.error().line();
         if (!opened) return "not opened";
         begin(std::move(opened->workpiece->solid));

@@ -13,6 +13,8 @@
 #include "compute/engine/chosen_engine.hpp"
 #include "compute/engine/engine.hpp"
 #include "document/document_store.hpp"
+#include "sculpt/carved_workpiece.hpp"
+#include "sculpt/load_workpiece.hpp"
 #include "sculpt/sculpture.hpp"
 #include "session/live/session.hpp"
 #include "session/state/command_table.hpp"
@@ -102,6 +104,7 @@ public:
 
 private:
     SessionState state_of(SessionSetup options) {
+        options.carve.make_workpiece = sculpt::make_carved_workpiece;
         options.carve.engine = compute::EngineChoice::cpu;
         SimulatedClock clock;
         testing::internal::CaptureStderr();

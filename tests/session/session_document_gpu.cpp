@@ -11,9 +11,9 @@
 #include "geometry/mesh/mesh_placing.hpp"
 #include "gpu/device.hpp"
 #include "record/database.hpp"
-#include "sculpt/saved_solid.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
+#include "workpiece/saved_solid.hpp"
 
 namespace burin::session {
 namespace {
@@ -36,7 +36,7 @@ protected:
     scene::Pages pages(const std::string& name) {
         Result<document::DocumentReader> reader = document::DocumentReader::open((place / name).string());
         EXPECT_TRUE(reader) << reader.error().line();
-        return *reader->pages_of(sculpt::kSolidPart);
+        return *reader->pages_of(workpiece::kSolidPart);
     }
     Workplace place;
 };

@@ -106,7 +106,7 @@ TEST(SessionState, OnlyTouchingEndsWithTheNextTool) {
         EXPECT_TRUE(std::isinf(parameters_of(state, room).materials[0].hardness_Ns_per_m3)) << "it can be cut";
         ASSERT_TRUE(run(state, orders, name, arguments)) << name;
         EXPECT_TRUE(std::isfinite(parameters_of(state, room).materials[0].hardness_Ns_per_m3)) << name;
-        const auto* use = std::get_if<sculpt::UseTool>(&orders.carving.back());
+        const auto* use = std::get_if<workpiece::UseTool>(&orders.carving.back());
         ASSERT_NE(use, nullptr) << name;
         EXPECT_TRUE(std::isfinite(use->hardness_Ns_per_m3)) << name;
     }

@@ -7,14 +7,14 @@
 #include <filesystem>
 #include <functional>
 
+#include "activities/carve/stroke_pictures.hpp"
 #include "compute/engine/chosen_engine.hpp"
 #include "compute/vulkan/engine_choice.hpp"
-#include "desk/draw/pictures.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "haptics/channels.hpp"
 #include "haptics/haptic_loop.hpp"
+#include "sculpt/load_workpiece.hpp"
 #include "sculpt/sculpture.hpp"
-#include "sculpt/workpiece.hpp"
 #include "toolbox/tool_mesh.hpp"
 #include "toolbox/tool_options.hpp"
 
@@ -92,7 +92,7 @@ Vec3 on_ball(const Box& bounds, double across) {
 
 class Story {
 public:
-    Story(sculpt::Sculpture& carving, session::Pictures& pictures, toolbox::Tool paint, const Box& bounds)
+    Story(sculpt::Sculpture& carving, activities::StrokePictures& pictures, toolbox::Tool paint, const Box& bounds)
         : carving_(carving), pictures_(pictures), paint_(std::move(paint)), bounds_(bounds) {}
 
     Result<std::vector<Image>> tell() {
@@ -138,7 +138,7 @@ private:
     }
 
     sculpt::Sculpture& carving_;
-    session::Pictures& pictures_;
+    activities::StrokePictures& pictures_;
     toolbox::Tool paint_;
     Box bounds_;
     LedHand hand_;
@@ -184,7 +184,7 @@ Result<void> make(const std::filesystem::path& file) {
     Result<toolbox::Tool> tool = toolbox::make_tool(*settings);
     if (!tool) return std::unexpected(tool.error());
     WorkerPool pool(0);
-    Result<sculpt::LoadedWorkpiece> workpiece =
+    Result<workpiece::LoadedWorkpiece> workpiece =
         sculpt::load_workpiece({"assets/workpieces/soccer_ball.obj", 256, false}, pool);
     if (!workpiece) return std::unexpected(workpiece.error());
     tool->material = static_cast<std::uint8_t>(workpiece->solid.materials.size());
@@ -193,8 +193,8 @@ Result<void> make(const std::filesystem::path& file) {
     compute::ChosenEngine chosen =
         compute::choose_engine(compute::EngineChoice::cpu, std::move(workpiece->solid), pool);
     sculpt::Sculpture carving(std::move(chosen.engine), pool);
-    Result<session::Pictures> pictures =
-        session::Pictures::create(std::filesystem::absolute(file).parent_path(), bounds);
+    Result<activities::StrokePictures> pictures =
+        activities::StrokePictures::create(std::filesystem::absolute(file).parent_path(), bounds);
     if (!pictures) return std::unexpected(pictures.error());
     const auto images = Story(carving, *pictures, std::move(*tool), bounds).tell();
     if (!images) return std::unexpected(images.error());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Draws the pictures of a session: close-ups of the workpiece before and after, and both eyes' views of the wall.
+// Draws the pictures of a stroke that is carved without a person: close-ups of the workpiece before and
+// after, and both eyes' views of the wall.
 #pragma once
 
 #include <filesystem>
@@ -17,23 +18,21 @@ namespace burin::sculpt {
 class Sculpture;  // sculpt/sculpture.hpp
 }  // namespace burin::sculpt
 
-namespace burin::session {
+namespace burin::activities {
 
-// Makes a folder that pictures are to be written to, with those above it, unless it is there. option: what named it.
-[[nodiscard]] Result<void> make_picture_folder(const std::filesystem::path& folder, const std::string& option);
-
-class Pictures {
+class StrokePictures {
 public:
-    // Opens the Vulkan device and checks that the folder can be written. `bounds_object` are the workpiece's bounds.
-    [[nodiscard]] static Result<Pictures> create(const std::filesystem::path& folder, const Box& bounds_object);
+    // Opens the Vulkan device and checks that the folder, which is there, can be written. `bounds_object` are the
+    // workpiece's bounds.
+    [[nodiscard]] static Result<StrokePictures> create(const std::filesystem::path& folder, const Box& bounds_object);
 
     // Writes before.png: the workpiece alone, seen from nearby.
     [[nodiscard]] Result<void> take_before(sculpt::Sculpture& carving);
     // Writes after.png, the same view after carving, and left.png, right.png and stereo.png (left | right): the wall as
     // the tracked viewer sees it.
-    [[nodiscard]] Result<void> take_after(sculpt::Sculpture& carving, const Staging& staging);
+    [[nodiscard]] Result<void> take_after(sculpt::Sculpture& carving, const session::Staging& staging);
     // Returns the wall as seen from the middle between the eyes, for print, where one picture has to do.
-    [[nodiscard]] Result<Image> view_of_wall(sculpt::Sculpture& carving, const Staging& staging);
+    [[nodiscard]] Result<Image> view_of_wall(sculpt::Sculpture& carving, const session::Staging& staging);
 
     [[nodiscard]] const std::string& device_name() const { return device_name_; }
     // Opens another lane of the device, for who carves.
@@ -41,7 +40,8 @@ public:
     [[nodiscard]] double scene_scale() const { return world_from_object_.scale; }
 
 private:
-    Pictures(std::filesystem::path folder, gpu::Device device, renderer::Renderer renderer, const Box& bounds_object);
+    StrokePictures(std::filesystem::path folder, gpu::Device device, renderer::Renderer renderer,
+                   const Box& bounds_object);
     [[nodiscard]] Result<void> bring_up_to_date(sculpt::Sculpture& carving);
     [[nodiscard]] picture::Picture wall_scene(const sculpt::Sculpture& carving) const;
     [[nodiscard]] picture::Picture close_scene(const sculpt::Sculpture& carving) const;
@@ -56,4 +56,4 @@ private:
     double radius_world_m_ = 0.0;  // of the workpiece's bounding sphere
 };
 
-}  // namespace burin::session
+}  // namespace burin::activities

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "sculpt/saved_changes.hpp"
+#include "workpiece/saved_changes.hpp"
 
 #include <algorithm>
 #include <cstring>
 #include <span>
 
-#include "sculpt/saved_head.hpp"
-#include "sculpt/saved_solid.hpp"
+#include "workpiece/saved_head.hpp"
+#include "workpiece/saved_solid.hpp"
 
-namespace burin::sculpt {
+namespace burin::workpiece {
 namespace {
 
 using compute::DexelSet, compute::HistoryStep, compute::RayBatch;
@@ -237,4 +237,4 @@ Result<RayBatch> step_in(const compute::Solid& solid, const scene::Pages& step, 
     return std::move(*batch);
 }
 
-}  // namespace burin::sculpt
+}  // namespace burin::workpiece

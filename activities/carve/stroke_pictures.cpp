@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "desk/draw/pictures.hpp"
+#include "activities/carve/stroke_pictures.hpp"
 
 #include "base/file_io.hpp"
 #include "base/try.hpp"
@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace burin::session {
+namespace burin::activities {
 namespace {
 
 constexpr ImageSize kEyeSize{1280, 960};  // the wall is 4 : 3
@@ -32,17 +32,8 @@ double longest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
 
 }  // namespace
 
-Result<void> make_picture_folder(const std::filesystem::path& folder, const std::string& option) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    std::error_code ignored;
-    if (std::filesystem::is_directory(folder, ignored)) return {};
-    return fail(folder.string(), "cannot be made as a folder for pictures (" + error.message() + ")",
-                "choose another " + option + " folder");
-}
-
-Pictures::Pictures(std::filesystem::path folder, gpu::Device device, renderer::Renderer renderer,
-                   const Box& bounds_object)
+StrokePictures::StrokePictures(std::filesystem::path folder, gpu::Device device, renderer::Renderer renderer,
+                               const Box& bounds_object)
     : folder_(std::move(folder)), device_(std::move(device)), renderer_(std::move(renderer)) {
     device_name_ = device_.info().name;
     world_from_object_.scale = kLargestOnWall_m / longest(bounds_object.extent());
@@ -52,8 +43,7 @@ Pictures::Pictures(std::filesystem::path folder, gpu::Device device, renderer::R
     radius_world_m_ = 0.5 * world_from_object_.scale * glm::length(bounds_object.extent());
 }
 
-Result<Pictures> Pictures::create(const std::filesystem::path& folder, const Box& bounds_object) {
-    BURIN_TRY_DO(make_picture_folder(folder, "--pictures"));
+Result<StrokePictures> StrokePictures::create(const std::filesystem::path& folder, const Box& bounds_object) {
     for (const char* name : {kBefore, kAfter, kLeft, kRight, kStereo}) {
         BURIN_TRY_DO(check_writable(folder / name));
     }
@@ -64,11 +54,11 @@ Result<Pictures> Pictures::create(const std::filesystem::path& folder, const Box
         return std::unexpected(e);
     }
     BURIN_TRY(renderer, renderer::Renderer::create(*device, kEyeSize));
-    return Pictures(folder, std::move(*device), std::move(renderer), bounds_object);
+    return StrokePictures(folder, std::move(*device), std::move(renderer), bounds_object);
 }
 
-// Updates the renderer's surface. Pictures are not urgent: all light is computed before one is taken.
-Result<void> Pictures::bring_up_to_date(sculpt::Sculpture& carving) {
+// Updates the renderer's surface. StrokePictures are not urgent: all light is computed before one is taken.
+Result<void> StrokePictures::bring_up_to_date(sculpt::Sculpture& carving) {
     const Vec3 to_light_object = inverse(world_from_object_.orientation) * picture::direction_to_light();
     BURIN_TRY_DO(carving.keep_light({to_light_object, picture::kLightHalfAngleTangent}));
     while (carving.bake_light(Vec3(0.0), kTilesAStep) > 0) {
@@ -85,7 +75,7 @@ Result<void> Pictures::bring_up_to_date(sculpt::Sculpture& carving) {
     return {};
 }
 
-picture::Picture Pictures::wall_scene(const sculpt::Sculpture& carving) const {
+picture::Picture StrokePictures::wall_scene(const sculpt::Sculpture& carving) const {
     picture::Picture scene;
     scene.viewer.head_world.position_m = kHead_world;
     scene.world_from_object = world_from_object_;
@@ -97,7 +87,7 @@ picture::Picture Pictures::wall_scene(const sculpt::Sculpture& carving) const {
 }
 
 // Shows the same scene through a smaller screen that stands around the workpiece, square to the line of sight.
-picture::Picture Pictures::close_scene(const sculpt::Sculpture& carving) const {
+picture::Picture StrokePictures::close_scene(const sculpt::Sculpture& carving) const {
     picture::Picture scene = wall_scene(carving);
     const Vec3 towards_eye = glm::normalize(Vec3(0.18, 0.22, 1.0));
     const Vec3 right = glm::normalize(glm::cross(Vec3(0, 1, 0), towards_eye));
@@ -113,14 +103,14 @@ picture::Picture Pictures::close_scene(const sculpt::Sculpture& carving) const {
     return scene;
 }
 
-Result<void> Pictures::take_before(sculpt::Sculpture& carving) {
+Result<void> StrokePictures::take_before(sculpt::Sculpture& carving) {
     BURIN_TRY_DO(bring_up_to_date(carving));
     BURIN_TRY(image, renderer_.render(close_scene(carving)));
     carving.drop_light();  // not needed until the next picture
     return picture::write_png(folder_ / kBefore, image.left);
 }
 
-Result<void> Pictures::take_after(sculpt::Sculpture& carving, const Staging& staging) {
+Result<void> StrokePictures::take_after(sculpt::Sculpture& carving, const session::Staging& staging) {
     BURIN_TRY_DO(bring_up_to_date(carving));
     BURIN_TRY(close, renderer_.render(close_scene(carving)));
     BURIN_TRY_DO(picture::write_png(folder_ / kAfter, close.left));
@@ -134,7 +124,7 @@ Result<void> Pictures::take_after(sculpt::Sculpture& carving, const Staging& sta
     return picture::write_png(folder_ / kStereo, side_by_side(stereo));
 }
 
-Result<Image> Pictures::view_of_wall(sculpt::Sculpture& carving, const Staging& staging) {
+Result<Image> StrokePictures::view_of_wall(sculpt::Sculpture& carving, const session::Staging& staging) {
     BURIN_TRY_DO(bring_up_to_date(carving));
     picture::Picture scene = wall_scene(carving);
     scene.viewer.interpupillary_m = 0.0;
@@ -143,4 +133,4 @@ Result<Image> Pictures::view_of_wall(sculpt::Sculpture& carving, const Staging& 
     return std::move(views.left);
 }
 
-}  // namespace burin::session
+}  // namespace burin::activities

@@ -9,7 +9,7 @@
 
 #include "compute/rays/solid.hpp"
 
-namespace burin::sculpt {
+namespace burin::workpiece {
 
 inline constexpr const char* kHead = "head";
 inline constexpr std::size_t kMostMaterials = 255;
@@ -29,4 +29,4 @@ struct SavedHead {
 // The material of what was damaged and made again.
 [[nodiscard]] const geometry::Material& lost_material();
 
-}  // namespace burin::sculpt
+}  // namespace burin::workpiece

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Steps of undo as pages: one that is larger than a page may be is whole again when it is read.
-#include "sculpt/saved_changes.hpp"
+#include "workpiece/saved_changes.hpp"
 
 #include <gtest/gtest.h>
 
-#include "sculpt/saved_solid.hpp"
+#include "workpiece/saved_solid.hpp"
 
-namespace burin::sculpt {
+namespace burin::workpiece {
 
 TEST(SavedChanges, OfAHugeStrokeAreWholeInSeveralPages) {
     compute::Solid solid;
@@ -59,4 +59,4 @@ TEST(SavedChanges, WithoutBytesAreNone) {
     EXPECT_FALSE(step_in(solid, step, "work.burin"));
 }
 
-}  // namespace burin::sculpt
+}  // namespace burin::workpiece

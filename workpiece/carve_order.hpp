@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Orders to a carved workpiece (carved_part.hpp): what keys, panel, script or recording ask of it. Plain data.
+// Orders to a workpiece (workpiece.hpp): what keys, panel, script or recording ask of it. Plain data.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -15,7 +16,11 @@
 #include "toolbox/mirror.hpp"
 #include "toolbox/tool_options.hpp"
 
-namespace burin::sculpt {
+namespace burin::workpiece {
+
+// Button of a hand that a mouse leads, beside the first: the cursor has left the surface within a stroke. A tool that
+// fills at the hand touches what it has just added, and would go on adding into the air.
+inline constexpr std::uint32_t kOverAir = 1u << 2;
 
 struct UseTool {
     toolbox::Tool tool;           // its material's index is looked up when the order is carried out
@@ -44,7 +49,7 @@ struct LightFrom {
 struct SaveScene {
     std::function<void()> save;
 };
-using SculptOrder =
+using CarveOrder =
     std::variant<UseTool, MirrorStrokes, UndoStroke, RedoStroke, ForgetUndone, ExportSurface, LightFrom, SaveScene>;
 
-}  // namespace burin::sculpt
+}  // namespace burin::workpiece

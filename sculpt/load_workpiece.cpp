@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sculpt/workpiece.hpp"
+#include "sculpt/load_workpiece.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -25,26 +25,25 @@ struct LoadShares {
     double read = 0.0, checked = 0.0, solid = 0.0;  // done when it is
 };
 
-bool is_shape(const std::string& source) { return source.starts_with("block:") || source.starts_with("ball:"); }
-
 // Estimates the shares by what a binary STL of 4.4 million triangles and a ball of 2048 cells took: they are shown, and
 // nothing follows from them.
-LoadShares shares_of(const WorkpieceOptions& options) {
+LoadShares shares_of(const workpiece::WorkpieceOptions& options) {
     constexpr double kOfByte = 34e-9, kOfSurfaceCell = 6.7e-6, kReading = 0.6, kSolid = 0.2;
     std::error_code ignored;
-    const auto bytes = is_shape(options.source) ? 0 : std::filesystem::file_size(options.source, ignored);
+    const auto bytes = workpiece::is_shape(options.source) ? 0 : std::filesystem::file_size(options.source, ignored);
     const double file = ignored ? 0.0 : kOfByte * static_cast<double>(bytes);
     const double solid = kOfSurfaceCell * options.resolution * options.resolution;
     const double of_file = file / (file + solid);
     return {kReading * of_file, of_file, of_file + kSolid * (1.0 - of_file)};
 }
 
-Result<LoadedWorkpiece> from_file(const WorkpieceOptions& options, WorkerPool& pool, const LoadWatch& watch) {
+Result<workpiece::LoadedWorkpiece> from_file(const workpiece::WorkpieceOptions& options, WorkerPool& pool,
+                                             const workpiece::LoadWatch& watch) {
     const LoadShares shares = shares_of(options);
     BURIN_TRY(closed, geometry::load_closed_mesh({options.source, options.close_holes, options.close_small_holes,
                                                   options.units, options.weld_m},
                                                  {watch.work, watch.look, shares.read, shares.checked}));
-    LoadedWorkpiece workpiece{
+    workpiece::LoadedWorkpiece workpiece{
         {}, std::move(closed.report), std::move(closed.size), closed.unit, closed.size_m, closed.closed};
     begin_step(watch.work, "building the solid", shares.checked, shares.solid);
     Result<compute::ScanConversion> converted = compute::scan_convert(closed.mesh, options.resolution, pool);
@@ -63,7 +62,7 @@ Result<LoadedWorkpiece> from_file(const WorkpieceOptions& options, WorkerPool& p
     return workpiece;
 }
 
-Result<LoadedWorkpiece> from_shape(const WorkpieceOptions& options) {
+Result<workpiece::LoadedWorkpiece> from_shape(const workpiece::WorkpieceOptions& options) {
     const std::size_t colon = options.source.find(':');
     const std::string shape = options.source.substr(0, colon);
     const std::string_view sizes = std::string_view(options.source).substr(colon + 1);
@@ -73,14 +72,15 @@ Result<LoadedWorkpiece> from_shape(const WorkpieceOptions& options) {
                          : compute::make_ball(numbers[0], options.resolution, kPlainMaterial));
     const Vec3 size_m = shape == "block" ? Vec3(numbers[0], numbers[1], numbers[2]) : Vec3(2.0 * numbers[0]);
     const std::string size = options.source + ": " + in_millimetres(size_m);
-    return LoadedWorkpiece{std::move(solid), {{"source", options.source}, {"size", size}}, size, LengthUnit::m, size_m};
+    return workpiece::LoadedWorkpiece{
+        std::move(solid), {{"source", options.source}, {"size", size}}, size, LengthUnit::m, size_m};
 }
 
 }  // namespace
 
 // ---- Workpiece
 
-double meshing_from(const WorkpieceOptions& options) { return shares_of(options).solid; }
+double meshing_from(const workpiece::WorkpieceOptions& options) { return shares_of(options).solid; }
 
 void note_unmet_parts(const geometry::TriangleMesh& mesh, const compute::Solid& solid, std::string& size,
                       Json& report) {
@@ -91,39 +91,21 @@ void note_unmet_parts(const geometry::TriangleMesh& mesh, const compute::Solid& 
     report["unmet"] = describe(parts, solid.lattice);
 }
 
-Result<LoadedWorkpiece> load_workpiece(const WorkpieceOptions& options, WorkerPool& pool, const LoadWatch& watch) {
+Result<workpiece::LoadedWorkpiece> load_workpiece(const workpiece::WorkpieceOptions& options, WorkerPool& pool,
+                                                  const workpiece::LoadWatch& watch) {
     const LoadShares shares = shares_of(options);
-    if (is_shape(options.source)) begin_step(watch.work, "building the solid", shares.checked, shares.solid);
-    Result<LoadedWorkpiece> workpiece =
-        is_shape(options.source) ? from_shape(options) : from_file(options, pool, watch);
+    if (workpiece::is_shape(options.source)) begin_step(watch.work, "building the solid", shares.checked, shares.solid);
+    Result<workpiece::LoadedWorkpiece> workpiece =
+        workpiece::is_shape(options.source) ? from_shape(options) : from_file(options, pool, watch);
     if (!workpiece) return workpiece;
     if (!go_on(watch.work, 0.5)) return geometry::no_longer_wanted();
-    workpiece->bounds_object = workpiece_bounds(workpiece->solid.lattice);
+    workpiece->bounds_object = workpiece::workpiece_bounds(workpiece->solid.lattice);
     const double room_m = options.room.value_or(0.0) * longest_side_m(workpiece->bounds_object);
     const double cells = std::ceil(room_m / workpiece->solid.lattice.spacing_m);
     const int most = compute::most_room_cells(workpiece->solid.lattice);
     BURIN_TRY(roomy, compute::with_room(std::move(workpiece->solid), std::min(most, static_cast<int>(cells))));
     workpiece->solid = std::move(roomy);
     return workpiece;
-}
-
-Result<void> check_units(const WorkpieceOptions& options, bool tool_is_a_file) {
-    const LengthUnit unit = options.units.value_or(LengthUnit::m);
-    if (unit == LengthUnit::m || tool_is_a_file || !is_shape(options.source)) return {};
-    return fail(std::string("--units ") + name_of(unit), "is for mesh files, and " + options.source + " is in metres",
-                "leave --units out and write the sizes in metres");
-}
-
-Box lattice_bounds(const compute::Lattice& lattice) {
-    const Vec3 size = Vec3(lattice.cells[0], lattice.cells[1], lattice.cells[2]) * lattice.spacing_m;
-    return {lattice.origin_object, lattice.origin_object + size};
-}
-
-Box workpiece_bounds(const compute::Lattice& lattice) {
-    // The lattice has about one and a half empty cells around the workpiece.
-    const Vec3 inset(1.5 * lattice.spacing_m);
-    const Box all = lattice_bounds(lattice);
-    return {all.lo + inset, all.hi - inset};
 }
 
 }  // namespace burin::sculpt

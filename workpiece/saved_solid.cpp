@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sculpt/saved_solid.hpp"
+#include "workpiece/saved_solid.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -13,9 +13,9 @@
 #include "base/try.hpp"
 #include "compute/rays/memory_need.hpp"
 #include "compute/rays/normal_code.hpp"
-#include "sculpt/saved_head.hpp"
+#include "workpiece/saved_head.hpp"
 
-namespace burin::sculpt {
+namespace burin::workpiece {
 namespace {
 
 using compute::DexelSet;
@@ -314,4 +314,4 @@ Result<LoadedSolid> load_solid(const scene::Pages& pages, const std::string& whe
     return LoadedSolid{std::move(solid), std::move(told)};
 }
 
-}  // namespace burin::sculpt
+}  // namespace burin::workpiece

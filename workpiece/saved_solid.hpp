@@ -23,7 +23,7 @@
 #include "compute/rays/solid.hpp"
 #include "scene/pages.hpp"
 
-namespace burin::sculpt {
+namespace burin::workpiece {
 
 inline constexpr std::string_view kSolidPart = "tri-dexel solid";
 inline constexpr int kPageSide = 32;  // rays of a page along u and v
@@ -56,4 +56,4 @@ struct LoadedSolid {
 // `where` names the document in messages.
 [[nodiscard]] Result<LoadedSolid> load_solid(const scene::Pages& pages, const std::string& where);
 
-}  // namespace burin::sculpt
+}  // namespace burin::workpiece

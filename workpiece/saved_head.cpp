@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sculpt/saved_head.hpp"
+#include "workpiece/saved_head.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "base/json.hpp"
 #include "compute/rays/ray_batch.hpp"
 
-namespace burin::sculpt {
+namespace burin::workpiece {
 namespace {
 
 // What any workpiece has (compute/rays/lattice.cpp) lies within these.
@@ -103,4 +103,4 @@ const geometry::Material& lost_material() {
     return lost;
 }
 
-}  // namespace burin::sculpt
+}  // namespace burin::workpiece

@@ -5,9 +5,10 @@
 #include <optional>
 #include <string>
 
+#include "base/error.hpp"
 #include "base/length_unit.hpp"
 
-namespace burin::sculpt {
+namespace burin::workpiece {
 
 // Default room on every side of a workpiece, as a share of its longest side.
 inline constexpr double kUsualRoom = 0.15;
@@ -23,4 +24,9 @@ struct WorkpieceOptions {
     std::optional<double> weld_m = std::nullopt;     // of a file; none: by its numbers (join_open_edges)
 };
 
-}  // namespace burin::sculpt
+// Returns whether the source is a shape, whose sizes are in metres, and no file.
+[[nodiscard]] bool is_shape(const std::string& source);
+// Checks whether --units has a mesh file to speak of: sizes of shapes are in metres.
+[[nodiscard]] Result<void> check_units(const WorkpieceOptions& options, bool tool_is_a_file);
+
+}  // namespace burin::workpiece

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
 // A solid as pages: what is saved and loaded is the same to the bit and goes on being so; what is lost is made again.
 #include "compute/engine/engine.hpp"
-#include "sculpt/saved_solid.hpp"
+#include "workpiece/saved_solid.hpp"
 
 #include <gtest/gtest.h>
 
 #include "base/json.hpp"
-#include "sculpt/saved_changes.hpp"
+#include "sculpt/load_workpiece.hpp"
 #include "sculpt/sculpture.hpp"
-#include "sculpt/workpiece.hpp"
 #include "toolbox/tool_options.hpp"
+#include "workpiece/saved_changes.hpp"
 
-namespace burin::sculpt {
+namespace burin::workpiece {
 namespace {
 
 struct SavedBall {
     WorkerPool pool{1};
-    Sculpture carving{engine(*load_workpiece({.source = "ball:0.1", .resolution = 90, .room = 0.1}, pool)), pool};
+    sculpt::Sculpture carving{
+        engine(*sculpt::load_workpiece({.source = "ball:0.1", .resolution = 90, .room = 0.1}, pool)), pool};
 
     std::unique_ptr<compute::CarvingEngine> engine(LoadedWorkpiece workpiece) {
         return compute::make_cpu_engine(std::move(workpiece.solid), pool);
@@ -53,7 +54,7 @@ TEST(SavedSolid, IsTheSameToTheBitAndGoesOnTheSame) {
     ASSERT_TRUE(loaded) << loaded.error().line();
     EXPECT_EQ(loaded->lost, "");
     expect_same(loaded->solid, ball.solid());
-    Sculpture opened(compute::make_cpu_engine(std::move(loaded->solid), ball.pool), ball.pool);
+    sculpt::Sculpture opened(compute::make_cpu_engine(std::move(loaded->solid), ball.pool), ball.pool);
     scene::Pages again;
     ASSERT_TRUE(opened.save(again));
     EXPECT_EQ(again.pages, pages.pages);
@@ -241,4 +242,4 @@ TEST(SavedSolid, OfDamagedBytesIsToldAndNeverTaken) {
     EXPECT_TRUE(!loaded || compute::well_formed(loaded->solid));
 }
 
-}  // namespace burin::sculpt
+}  // namespace burin::workpiece

@@ -20,7 +20,7 @@
 #include "compute/rays/solid.hpp"
 #include "scene/pages.hpp"
 
-namespace burin::sculpt {
+namespace burin::workpiece {
 
 inline constexpr std::size_t kMostRayBytes = std::size_t{16} << 20;
 
@@ -57,4 +57,4 @@ void copy_steps(const compute::History& history, std::size_t most_bytes, scene::
 [[nodiscard]] Result<compute::RayBatch> step_in(const compute::Solid& solid, const scene::Pages& step,
                                                 const std::string& where);
 
-}  // namespace burin::sculpt
+}  // namespace burin::workpiece
