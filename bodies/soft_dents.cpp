@@ -73,7 +73,7 @@ void SoftDents::begin(SoftShapeKept now) {
     if (open_) return;
     undone_.clear();
     const scene::PartSteps left = steps();
-    unsaved_.erase(unsaved_.upper_bound(left.done), unsaved_.end());
+    for (auto* const all : {&unsaved_, &unnoted_}) all->erase(all->upper_bound(left.done), all->end());
     open_ = std::move(now);
     ++made_;
 }
@@ -84,10 +84,16 @@ void SoftDents::end() {
 
 void SoftDents::add(SoftShapeKept before) {
     done_.push_back(std::move(before));
-    unsaved_.insert(steps().done);
+    is_new(steps().done);
     if (done_.size() <= kMostSteps) return;
     done_.pop_front();
-    unsaved_.erase(first_++);
+    unsaved_.erase(first_);
+    unnoted_.erase(first_++);
+}
+
+void SoftDents::is_new(std::int64_t step) {
+    unsaved_.insert(step);
+    unnoted_.insert(step);
 }
 
 const SoftShapeKept* SoftDents::next(StepWay way) const {
@@ -107,7 +113,7 @@ std::optional<SoftShapeKept> SoftDents::go(StepWay way, SoftShapeKept now) {
     SoftShapeKept given = std::move(from.back());
     from.pop_back();
     to.push_back(std::move(now));
-    unsaved_.insert(way == StepWay::back ? steps().done + 1 : steps().done);
+    is_new(way == StepWay::back ? steps().done + 1 : steps().done);
     return given;
 }
 
@@ -120,15 +126,21 @@ scene::PartSteps SoftDents::steps() const {
 
 void SoftDents::save(scene::Pages& pages) {
     end();
+    put(unsaved_, pages);
+}
+
+void SoftDents::note(scene::Pages& pages) { put(unnoted_, pages); }
+
+void SoftDents::put(std::set<std::int64_t>& which, scene::Pages& pages) const {
     const scene::PartSteps now = steps();
     pages.steps = {.first = now.first, .done = now.done, .last = now.last};
     for (std::int64_t number = now.first; number <= now.last; ++number) {
-        if (!pages.whole && !unsaved_.contains(number)) continue;
+        if (!pages.whole && !which.contains(number)) continue;
         const SoftShapeKept& shape = number <= now.done ? done_[static_cast<std::size_t>(number - now.first)]
                                                         : undone_[static_cast<std::size_t>(now.last - number)];
         pages.steps->pages[{kShape, number}] = bytes_of(shape);
     }
-    unsaved_.clear();
+    which.clear();
 }
 
 void SoftDents::load(const scene::Steps& steps, std::vector<SoftShapeKept> shapes) {

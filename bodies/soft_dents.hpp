@@ -58,18 +58,22 @@ public:
 
     // Puts the steps that are new since the last call into the pages, or all of them where the pages ask for the whole.
     void save(scene::Pages& pages);
+    // Likewise, for itself and for a journal. Requires that no dent goes on.
+    void note(scene::Pages& pages);
     // Goes on with the steps of an earlier session, of which `done` is the last that leads back. Requires as many as
     // there are numbers from first to last.
     void load(const scene::Steps& steps, std::vector<SoftShapeKept> shapes);
 
 private:
     void add(SoftShapeKept before);
+    void is_new(std::int64_t step);
+    void put(std::set<std::int64_t>& which, scene::Pages& pages) const;
 
     std::deque<SoftShapeKept> done_, undone_;  // shapes that a step gives; the next are last
     std::optional<SoftShapeKept> open_;        // before the dent that goes on
     std::int64_t first_ = 1;
     std::uint64_t made_ = 0;
-    std::set<std::int64_t> unsaved_;
+    std::set<std::int64_t> unsaved_, unnoted_;  // steps
 };
 
 // The pages of the body itself.

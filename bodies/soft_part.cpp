@@ -298,6 +298,13 @@ Result<void> SoftPart::save(scene::Pages& pages) {
     return {};
 }
 
+bool SoftPart::note(scene::Pages& pages) {
+    if (!setup_.material.is_plastic() || dents_.goes_on()) return false;
+    dents_.note(pages);
+    save_body(setup_, shape(), pages);
+    return true;
+}
+
 Result<void> SoftPart::load(const scene::Pages& pages, const scene::Steps& steps,
                             std::span<const scene::Pages> each_step, const std::string& where) {
     BURIN_TRY(saved, load_body(setup_, body_, pages, where));

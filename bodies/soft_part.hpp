@@ -79,6 +79,7 @@ public:
     [[nodiscard]] scene::PartSteps undo_steps() const override;
     void go(scene::StepWay way) override { waiting_.push_back(way); }
     [[nodiscard]] Result<void> save(scene::Pages& pages) override;
+    [[nodiscard]] bool note(scene::Pages& pages) override;
     [[nodiscard]] bool is_kept() const override { return setup_.material.is_plastic(); }
     // Has it go on as it was saved, before its first update; steps: of the pages, those from first to last. Fails where
     // these are of another body, or damaged; it is then as it was.

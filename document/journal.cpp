@@ -149,7 +149,8 @@ std::vector<LeftJournal> left_journals(const std::string& folder) {
                         .of = reader->fact(kJournalOfFact),
                         .name = reader->fact(kJournalNameFact),
                         .base_id = reader->fact(kBaseIdFact),
-                        .base_saves = reader->number(kBaseSavesFact)});
+                        .base_saves = reader->number(kBaseSavesFact),
+                        .opened_by = reader->fact(kOpenedByFact)});
     }
     return left;
 }

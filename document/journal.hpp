@@ -67,6 +67,7 @@ struct LeftJournal {
     std::string name = {};     // what the work was called
     std::string base_id = {};  // the document that it goes on from, and its count of saves
     std::int64_t base_saves = 0;
+    std::string opened_by = {};   // the command that opens it, before its path; empty: that of a document
     std::string unreadable = {};  // why it cannot be read; empty: it can, else nothing but its path is known
 };
 // Returns those in a folder that hold unsaved work, or may; removes the others that nobody has open.
@@ -75,6 +76,6 @@ struct LeftJournal {
 // Facts of a journal.
 inline constexpr const char *kJournalOfFact = "journal of", *kJournalNameFact = "journal name",
                             *kBaseIdFact = "journal base", *kBaseSavesFact = "journal base saves",
-                            *kUnsavedFact = "unsaved";
+                            *kUnsavedFact = "unsaved", *kOpenedByFact = "journal opened by";
 
 }  // namespace burin::document

@@ -18,4 +18,6 @@ Result<void> ScenePart::save(Pages& /*pages*/) {
     return fail("a part of the scene", "cannot be saved yet", "export it, or save a session without it");
 }
 
+bool ScenePart::note(Pages& /*pages*/) { return false; }
+
 }  // namespace burin::scene

@@ -80,7 +80,10 @@ public:
     // the last call, as they ask. Fails where the part cannot be saved, with the reason. What was saved is loaded by
     // whoever makes the part.
     [[nodiscard]] virtual Result<void> save(Pages& pages);
-    // Returns whether save() can give it.
+    // Puts what has changed since the last call into the pages, or all where they ask for it, as save() does, for a
+    // journal; what save() gives next is the same as without. Returns false, and does nothing, while a step goes on.
+    [[nodiscard]] virtual bool note(Pages& pages);
+    // Returns whether save() and note() can give it.
     [[nodiscard]] virtual bool is_kept() const { return false; }
     // Returns which steps there are that lead back and forward; none where nothing that it does is undone.
     [[nodiscard]] virtual PartSteps undo_steps() const { return {}; }

@@ -32,6 +32,7 @@
 #include "devices/registry/device_nature.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "document/document_reader.hpp"
+#include "document/journal.hpp"
 #include "session/record/input_files.hpp"
 #include "session/record/recordings.hpp"
 #include "session/record/session_log.hpp"
@@ -266,8 +267,10 @@ Result<void> keep_run(const AskedExercise& of, const activities::Rehab& exercise
     return !done ? done : !written ? written : kept;
 }
 
-// Has the body of an exercise go on as a document has it. A recording would have to have it as well.
-Result<void> go_on_from(const std::string& path, const session::SessionSetup& setup, activities::Rehab& exercise) {
+// Has the body of an exercise go on as a document has it, or the journal of a session that was killed. A recording
+// would have to have it as well.
+Result<void> go_on_from(const std::string& path, session::SessionSetup& setup, activities::Rehab& exercise) {
+    setup.work.opened_by = std::string("burin rehab ") + exercise.exercise().name() + " --from";
     if (path.empty()) return {};
     if (!setup.record.path.empty() || session::is_database(setup.record.input))
         return fail("--from", "cannot be recorded: a recording does not hold the body that it began with",
@@ -275,6 +278,11 @@ Result<void> go_on_from(const std::string& path, const session::SessionSetup& se
     BURIN_TRY(reader, document::DocumentReader::open(path));
     BURIN_TRY(pages, reader.pages_of(activities::Rehab::kBodyPart));
     const auto part = std::ranges::find(reader.parts(), activities::Rehab::kBodyPart, &document::PartPlace::kind);
+    for (std::int64_t number = 1; number <= reader.changes(); ++number) {
+        BURIN_TRY(change, reader.change(*part, number));
+        for (auto& [name, bytes] : change.pages) pages.pages[name] = std::move(bytes);
+    }
+    if (reader.facts().contains(document::kJournalNameFact)) setup.work.goes_on_from = path;
     BURIN_TRY(found, reader.steps(*part));
     const scene::Steps steps = found.value_or(scene::Steps());
     std::vector<scene::Pages> each;

@@ -99,6 +99,7 @@ Result<void> DocumentSide::keep_journal(const std::string& folder, const Session
     BURIN_TRY(path, new_journal(folder, name));
     beginning.facts.insert(origin_.begin(), origin_.end());
     beginning.facts[document::kJournalNameFact] = name;
+    beginning.facts[document::kOpenedByFact] = options.work.opened_by;
     if (!opened.recovered.empty()) beginning.facts[document::kUnsavedFact] = "1";
     if (!opened.document.empty() && opened.version) {
         beginning.facts[document::kJournalOfFact] = absolute_path(opened.document).string();

@@ -99,10 +99,23 @@ SceneSide::Order SceneSide::noting(document::Change change, document::DocumentWr
     });
 }
 
+SceneSide::Order SceneSide::noting_brought(std::int64_t place, document::History history,
+                                           document::DocumentWriter& writer,
+                                           std::shared_ptr<std::atomic<bool>> is_due) {
+    return Order::aside([this, place, history = std::move(history), &writer, is_due = std::move(is_due)]() mutable {
+        scene::Pages pages{.whole = false};
+        if (!brought_->note(pages)) return;
+        is_due->store(false, std::memory_order_relaxed);
+        history.follow(brought_part(), brought_->undo_steps());
+        writer.note({.part = place, .pages = std::move(pages), .history = std::move(history)});
+    });
+}
+
 SceneSide::Order SceneSide::journalling(document::Content content, document::DocumentWriter& writer) {
     return Order::aside([this, content = std::move(content), &writer]() mutable {
         // The workpiece is the first part.
         if (carved_ != nullptr && !carved_->copy(*content.parts.emplace(content.parts.begin()))) return;
+        if (brought_ != nullptr && brought_->is_kept() && !brought_->note(content.parts.emplace_back())) return;
         if (carved_ != nullptr && content.history) content.history->follow(0, carved_->undo_steps());
         writer.begin_anew(std::move(content));
     });

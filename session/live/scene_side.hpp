@@ -74,6 +74,10 @@ public:
     // Has a journal begin anew with the workpiece as it is then, before what is in the content, unless a stroke goes
     // on.
     [[nodiscard]] Order journalling(document::Content content, document::DocumentWriter& writer);
+    // Has what is new of the part that an activity has brought noted, as the part of this number in the document, unless
+    // a step of it goes on; is_due is false once it is.
+    [[nodiscard]] Order noting_brought(std::int64_t place, document::History history, document::DocumentWriter& writer,
+                                       std::shared_ptr<std::atomic<bool>> is_due);
     [[nodiscard]] Order editing(WorldOrder order);
     [[nodiscard]] Order holding(HoldOrder order);
     // Has what is known around a hand's first point reach its others, at this distance, where that is new.
@@ -103,7 +107,7 @@ public:
     [[nodiscard]] const scene::MeshPart* objects() const { return world_ ? &std::as_const(*world_).part() : nullptr; }
     [[nodiscard]] workpiece::WorkpiecePart* carved() { return carved_; }
     // The part that an activity has brought, null: none; and its number, behind workpiece and objects.
-    [[nodiscard]] const scene::ScenePart* brought() const { return brought_; }
+    [[nodiscard]] scene::ScenePart* brought() { return brought_; }
     [[nodiscard]] std::uint32_t brought_part() const { return (carved_ != nullptr ? 1u : 0u) + (world_ ? 1u : 0u); }
     [[nodiscard]] WorldSide* world() { return world_.get(); }
     [[nodiscard]] const WorldSide* world() const { return world_.get(); }

@@ -87,7 +87,10 @@ std::optional<scene::SurfaceUpdate> Session::take_loaded() {
 std::optional<scene::SurfaceUpdate> Session::take_news(std::uint64_t updates) {
     SceneNews::Taken news = scene_.news().take(updates);
     if (news.surface) take(*news.surface);
-    for (const auto& [part, now] : news.steps) state_.history.follow(static_cast<std::uint32_t>(part), now);
+    for (const auto& [part, now] : news.steps) {
+        state_.history.follow(static_cast<std::uint32_t>(part), now);
+        if (part == scene_.brought_part()) work_.brought_has_changed();
+    }
     for (const std::string& message : news.messages) notify(message);
     for (const scene::ContactEvent& contact : news.hands.contacts)
         notices_.add_event(event_of(contact, hands(), state_.world.get()));

@@ -64,10 +64,17 @@ void WorkSide::begin_history(SessionState& state) {
 }
 
 void WorkSide::begin_journal(const SessionState& state) {
-    const bool keeps = !options_.work.journal.empty() && state.saves;
+    const bool keeps = !options_.work.journal.empty() && (state.saves || state.saves_brought);
     if (state.saves && options_.record.input.empty()) news_.begin(keeps, !opened_.recovered.empty());
-    const bool begins_at_once = scene_.carved() != nullptr || !opened_.journal.empty();
-    if (keeps && begins_at_once) keep_journal(state.world.get(), state);
+    if (state.saves_brought) {
+        opened_.journal = options_.work.goes_on_from;
+        if (!opened_.journal.empty()) opened_.recovered = "what was not saved has come back from " + opened_.journal;
+        if (options_.record.input.empty())
+            for (const std::string& line : unsaved_work_in(options_.work.journal))
+                if (!line.ends_with(" " + opened_.journal)) log_.notify_of_event(line);
+    }
+    const bool begins_at_once = scene_.carved() != nullptr || state.saves_brought || !opened_.journal.empty();
+    if (keeps && begins_at_once) keep_journal(state.saves ? state.world.get() : nullptr, state);
     begins_journal_ = keeps && !begins_at_once;
 }
 
@@ -90,6 +97,8 @@ void WorkSide::keep_journal(const WorldObjects* world, const SessionState& state
     document::Content beginning = beginning_();
     if (scene_.workpiece() != nullptr) scene_.workpiece()->copy(beginning.parts.emplace_back());
     if (world != nullptr) beginning.parts.push_back(saved_world_.all(*world, state.edits));
+    brought_place_ = static_cast<std::int64_t>(beginning.parts.size());
+    if (state.saves_brought) static_cast<void>(scene_.brought()->note(beginning.parts.emplace_back()));
     beginning.history = state.history;
     if (const auto kept = document_.keep_journal(options_.work.journal, options_, opened_, std::move(beginning));
         !kept) {
@@ -100,6 +109,10 @@ void WorkSide::keep_journal(const WorldObjects* world, const SessionState& state
         scene_.carved()->keep_journal([&writer = document_.writer()](scene::Pages change) {
             writer.note({.part = 0, .pages = std::move(change)});
         });
+}
+
+bool WorkSide::keeps_brought(const SessionState& state) const {
+    return state.saves_brought && !options_.work.journal.empty();
 }
 
 // Notes for the journal what was done to objects. By way of the scene's thread, as saves go: one that was asked for
@@ -117,6 +130,8 @@ void WorkSide::go_on(const SessionState& state, Nanoseconds time_ns, const Give&
     if (time_ns - edits_noted_ns_ >= kEditsNoted_ns) {
         edits_noted_ns_ = time_ns;
         note_edits(state.world.get(), state, give);
+        if (keeps_brought(state) && brought_due_->load(std::memory_order_relaxed))
+            give(scene_.noting_brought(brought_place_, state.history, document_.writer(), brought_due_));
     }
     if (state.world) tell(state);
     watch_journal(state, give);
@@ -152,7 +167,7 @@ void WorkSide::watch_journal(const SessionState& state, const Give& give) {
     }
     if (!document_.writer().wants_all()) return;
     document::Content now = beginning_();
-    if (state.world) now.parts.push_back(saved_world_.all(*state.world, state.edits));
+    if (state.world && state.saves) now.parts.push_back(saved_world_.all(*state.world, state.edits));
     now.history = state.history;
     give(scene_.journalling(std::move(now), document_.writer()));
 }
@@ -165,8 +180,11 @@ void WorkSide::finish(const SessionState& state) {
     note_edits(state.world.get(), state, [](const SceneSide::Order& order) { order(); });
     document_.finish();
     for (const document::SaveOutcome& ended : document_.take_outcomes()) files_.tell(ended);
-    if (const std::string kept = document_.end_journal(state.discards); !kept.empty())
-        log_.notify("what was not saved is kept: burin sculpt " + kept);
+    // Who ends an exercise that was not killed is done with its body; what came back from a journal stays until it is
+    // saved.
+    const bool is_done_with = !state.saves && options_.work.goes_on_from.empty();
+    if (const std::string kept = document_.end_journal(state.discards || is_done_with); !kept.empty())
+        log_.notify("what was not saved is kept: " + options_.work.opened_by + " " + kept);
     if (!options_.work.journal.empty())
         for (const document::JournalNews& news : document_.writer().take_journal_news())
             if (news.failed) log_.notify_of_event(news.failed->line(), MessageKind::error);

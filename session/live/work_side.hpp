@@ -56,6 +56,8 @@ public:
     void take_outcomes();
     // Keeps up with what was done to objects, with the journal, and with what the user is told of both.
     void go_on(const SessionState& state, Nanoseconds time_ns, const Give& give);
+    // Hears that the part that an activity has brought has other steps.
+    void brought_has_changed() { brought_due_->store(true, std::memory_order_relaxed); }
     // Tells the state of the work, once the carved surface has changed.
     void tell(const SessionState& state);
     // Ends document and journal.
@@ -66,6 +68,7 @@ public:
     [[nodiscard]] bool waits_for_the_disk() const { return news_.waits(document_.safe_up_to()); }
 
 private:
+    [[nodiscard]] bool keeps_brought(const SessionState& state) const;
     void note_edits(const WorldObjects* world, const SessionState& state, const Give& give);
     void keep_journal(const WorldObjects* world, const SessionState& state);
     void watch_journal(const SessionState& state, const Give& give);
@@ -80,7 +83,10 @@ private:
     DocumentNews news_;
     SavedWorld saved_world_;
     Nanoseconds edits_noted_ns_ = 0;  // in the journal
-    bool begins_journal_ = false;     // with the first edit
+    std::int64_t brought_place_ = 0;  // of the brought part in a document
+    // It has something that the journal has not; the scene's thread says when no more.
+    std::shared_ptr<std::atomic<bool>> brought_due_ = std::make_shared<std::atomic<bool>>(false);
+    bool begins_journal_ = false;  // with the first edit
 };
 
 }  // namespace burin::session

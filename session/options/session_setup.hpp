@@ -66,10 +66,15 @@ struct RecordSetup {
     bool from_before_units = false;
 };
 
+inline constexpr const char* kOpensWork = "burin sculpt";
+
 // What becomes of the work.
 struct WorkSetup {
     // Folder for a journal of what is not saved; empty: the usual one of a person, none with an input; "none".
     std::string journal;
+    // The command that opens what the journal keeps, before its path, and the journal that this session's activity goes
+    // on from, if any; it goes once there is this session's own. No options of the command line.
+    std::string opened_by = kOpensWork, goes_on_from = {};
     std::string outputs;          // folder for all files of an input; empty: one named after the input
     bool writes_nothing = false;  // files that are asked for are left out
     // Exports are ordered as ever and refused, so that a session that is done again takes the same course.

@@ -43,7 +43,8 @@ bool is_journal_of(const document::LeftJournal& left, const OpenedWork& opened, 
 std::string told_of(const document::LeftJournal& left) {
     if (!left.unreadable.empty())
         return "what a session has left cannot be read, and stays: " + left.path + " " + left.unreadable;
-    return "work that was not saved (" + left.name + ") is kept: burin sculpt " + left.path;
+    const std::string command = left.opened_by.empty() ? kOpensWork : left.opened_by;
+    return "work that was not saved (" + left.name + ") is kept: " + command + " " + left.path;
 }
 
 }  // namespace

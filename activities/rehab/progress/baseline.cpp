@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 #include <ranges>
+#include <string>
+#include <string_view>
 
 #include "activities/rehab/exercise/person_range.hpp"
 #include "base/plot/html.hpp"
@@ -23,7 +25,11 @@ std::optional<double> measure_in(const Json& json, const std::string& path) {
 }
 
 bool is_carried_to_its_end(const KeptRun& run) {
-    return run.report.at("exercise") == kAssessment && run.report.at("ended") == "done";
+    const auto is = [&](const char* name, std::string_view text) {
+        const auto* const found = run.report.at(name).get_ptr<const std::string*>();
+        return found != nullptr && *found == text;
+    };
+    return is("exercise", kAssessment) && is("ended", "done");
 }
 
 // The findings of an assessment's finger by their names; null where it has none.

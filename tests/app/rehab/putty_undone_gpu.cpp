@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -101,6 +102,42 @@ TEST_F(PuttyUndone, GoesOnWithItsDentsFromADocument) {
         burin(putty(walks, "d") + " --from " + path("a/redone.burin") + " --record " + path("d.session"));
     EXPECT_NE(recorded.status, 0);
     EXPECT_TRUE(recorded.output.contains("cannot be recorded")) << recorded.output;
+}
+
+// What its journal holds while it goes on is what is left of it after kill -9. Nothing is saved before.
+TEST_F(PuttyUndone, ComesBackWithItsDentsAfterAKill) {
+    const auto whole = burin(putty(kneads(), "a"));
+    ASSERT_EQ(whole.status, 0) << whole.output;
+    const std::string script = at.read(std::string(kSessionsFolder) + "/rehab-putty.txt");
+    const std::string two_kneads = script.substr(0, script.find("13.650 button press"));
+    std::filesystem::create_directory(at / "j");
+    ASSERT_EQ(at.run("{ (cd " + std::string(kSessionsFolder) + "/../.. && exec " + kBurinCommand + " " +
+                     putty(two_kneads + "12.900 command undo\n3000 command quit\n", "k") + " --journal " + path("j") +
+                     ") > said.txt 2>&1 & echo $! > pid.txt; }")
+                  .status,
+              0);
+    // Looks at a copy of the journal, which the session has open: one dent is done, and one is taken back.
+    const auto is_undone = [&] {
+        const auto copied = at.run(
+            "mkdir -p seen; rm -f seen/*; cp j/*.burin seen/work.burin; "
+            "cp j/*.burin-wal seen/work.burin-wal");
+        auto reader = copied.status == 0 ? document::DocumentReader::open(path("seen/work.burin"))
+                                         : Result<document::DocumentReader>(std::unexpected(Error()));
+        if (!reader || reader->parts().empty()) return false;
+        const auto steps = reader->steps(reader->parts().front());
+        return steps && *steps && (*steps)->done == 1 && (*steps)->last == 2;
+    };
+    while (!is_undone()) ASSERT_EQ(at.run("kill -0 $(cat pid.txt)").status, 0) << "it ended: " << at.read("said.txt");
+    ASSERT_EQ(at.run("kill -9 $(cat pid.txt)").status, 0);
+
+    const std::string walks =
+        "burin-input 1 test\n0.1 command save opened.burin\n0.2 command redo\n0.4 command save second.burin\n"
+        "0.5 command undo\n0.7 command undo\n0.9 command save fresh.burin\n1 command quit\n";
+    const auto opened = burin(putty(walks, "b") + " --from " + path("seen/work.burin"));
+    ASSERT_EQ(opened.status, 0) << opened.output;
+    EXPECT_LT(apart_m(body("b/opened.burin"), body("a/one.burin")), kSettles_m);
+    EXPECT_LT(apart_m(body("b/second.burin"), body("a/two.burin")), kSettles_m);
+    EXPECT_LT(apart_m(body("b/fresh.burin"), body("a/none.burin")), kSettles_m);
 }
 
 TEST_F(PuttyUndone, IsDoneAgainToTheBitFromARecording) {
