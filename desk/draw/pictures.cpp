@@ -73,16 +73,23 @@ Result<void> Pictures::bring_up_to_date(sculpt::Sculpture& carving) {
     BURIN_TRY_DO(carving.keep_light({to_light_object, picture::kLightHalfAngleTangent}));
     while (carving.bake_light(Vec3(0.0), kTilesAStep) > 0) {
     }
-    for (const std::uint32_t tile : carving.take_changed_tiles()) {
-        renderer_.surface().set_patch(tile, carving.surface().shared_tile(tile));
-        if (const auto& light = carving.light()->shared_light(tile))
-            renderer_.surface().set_patch_light(tile, light->vertices);
-    }
+    shown_.resize(carving.surface().tile_count());
+    for (std::uint32_t tile = 0; tile < shown_.size(); ++tile) show_tile(carving, tile);
     std::vector<Box> inner = carving.light()->inner_boxes_object();
     const Vec3& origin = carving.surface().lattice().origin_object;
     for (Box& box : inner) box = {box.lo - origin, box.hi - origin};
     renderer_.surface().set_occluders(std::move(inner));
     return {};
+}
+
+// Knows what has changed by itself: a session that carves takes that from the workpiece for its own frames.
+void Pictures::show_tile(const sculpt::Sculpture& carving, std::uint32_t tile) {
+    const auto& mesh = carving.surface().shared_tile(tile);
+    const auto& light = carving.light()->shared_light(tile);
+    if (shown_[tile].mesh == mesh && shown_[tile].light == light) return;
+    shown_[tile] = {mesh, light};
+    renderer_.surface().set_patch(tile, mesh);
+    if (light) renderer_.surface().set_patch_light(tile, light->vertices);
 }
 
 picture::Picture Pictures::wall_scene(const sculpt::Sculpture& carving) const {

@@ -40,7 +40,7 @@ Result<sculpt::MadeWorkpiece> make_workpiece(const SessionSetup& options, Opened
 
 void note_workpiece(const sculpt::MadeWorkpiece& made, const SessionSetup& options, Room& room, FoundOut& found) {
     const sculpt::LoadedWorkpiece& workpiece = made.loaded;
-    std::fprintf(stderr, "burin: %s\n", workpiece.size.c_str());
+    if (!workpiece.size.empty()) std::fprintf(stderr, "burin: %s\n", workpiece.size.c_str());
     found.unit = workpiece.unit;
     found.holes_closed = !workpiece.closed.empty();
     room.workpiece_object = workpiece.bounds_object;
