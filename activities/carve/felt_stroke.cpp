@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "activities/carve/felt_stroke.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 
@@ -156,7 +157,7 @@ Result<session::FeltFigures> OpenedStroke::run(std::vector<std::pair<std::string
         recorder.add(tick);
     };
     run.after_frame = [&] {
-        progress.show(static_cast<double>(session_->step_ns()) / static_cast<double>(run.lasts_ns));
+        progress.show(std::min(1.0, static_cast<double>(session_->step_ns()) / static_cast<double>(run.lasts_ns)));
         return recorder.go_on(!real_time_);
     };
     Result<void> driven;

@@ -103,11 +103,14 @@ Result<void> run_headless(Session& session, SimulatedClock& clock, const Headles
 
 Result<std::string> run_headless_in_real_time(Session& session, Clock& clock, const HeadlessRun& run) {
     BURIN_TRY(input, input_of(session, run));
-    HeadlessFrames frames(session, run, std::move(input));
+    HeadlessRun from_start = run;
+    HeadlessFrames frames(session, from_start, std::move(input));
     ThreadedExecutor threads(clock, session.loop(), session.channels_of_parts(), session.scene(),
                              {.lead_ns = haptics::HapticLoop::kLead_ns},
                              [&](const auto& ended) { static_cast<void>(session.collect(ended)); });
     haptics::RealtimeNotice notice = threads.start();
+    // Threads take a while to start, above all to lock memory; the hand begins with the first tick.
+    from_start.lasts_ns += clock.now_ns() - session.start_ns();
     BURIN_TRY_DO(drive(threads, frames));
     BURIN_TRY_DO(frames.finish(threads));
     return std::move(notice.text);

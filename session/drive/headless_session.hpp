@@ -41,8 +41,8 @@ struct HeadlessRun {
 
 // Runs it to its end. The clock is the session's.
 [[nodiscard]] Result<void> run_headless(Session& session, SimulatedClock& clock, const HeadlessRun& run);
-// Runs it in real time, with threads for haptic loop and scene, and the frames on the caller's. Returns what the system
-// refused of real-time scheduling, in words (haptics::RealtimeNotice).
+// Runs it in real time from the start of its threads on, of haptic loop and scene, with the frames on the caller's.
+// Returns what the system refused of real-time scheduling, in words (haptics::RealtimeNotice).
 [[nodiscard]] Result<std::string> run_headless_in_real_time(Session& session, Clock& clock, const HeadlessRun& run);
 
 }  // namespace burin::session
