@@ -48,6 +48,10 @@ Result<std::unique_ptr<workpiece::Workpiece>> make_carved_workpiece(const workpi
                             : make_workpiece(options, make_engine, threads, watch));
     if (earlier && earlier->history) made.carving->keep_history(std::move(*earlier->history));
     if (earlier && earlier->is_saved) made.carving->is_saved();
+    return as_workpiece(std::move(made));
+}
+
+std::unique_ptr<workpiece::Workpiece> as_workpiece(MadeWorkpiece made) {
     return std::make_unique<CarvedWorkpiece>(std::move(made));
 }
 

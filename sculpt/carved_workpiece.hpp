@@ -13,9 +13,14 @@
 
 namespace burin::sculpt {
 
+struct MadeWorkpiece;  // sculpt/made_workpiece.hpp
+
 // A workpiece::WorkpieceMaker.
 [[nodiscard]] Result<std::unique_ptr<workpiece::Workpiece>> make_carved_workpiece(
     const workpiece::WorkpieceOptions& options, std::optional<workpiece::EarlierWork> earlier,
     const compute::EngineMaker& make_engine, unsigned threads, const workpiece::LoadWatch& watch = {});
+
+// Returns the workpiece of a sculpture that is there already, which keeps its place.
+[[nodiscard]] std::unique_ptr<workpiece::Workpiece> as_workpiece(MadeWorkpiece made);
 
 }  // namespace burin::sculpt

@@ -57,22 +57,29 @@ Result<StrokePictures> StrokePictures::create(const std::filesystem::path& folde
     return StrokePictures(folder, std::move(*device), std::move(renderer), bounds_object);
 }
 
-// Updates the renderer's surface. StrokePictures are not urgent: all light is computed before one is taken.
+// Updates the renderer's surface. Pictures are not urgent: all light is computed before one is taken.
 Result<void> StrokePictures::bring_up_to_date(sculpt::Sculpture& carving) {
     const Vec3 to_light_object = inverse(world_from_object_.orientation) * picture::direction_to_light();
     BURIN_TRY_DO(carving.keep_light({to_light_object, picture::kLightHalfAngleTangent}));
     while (carving.bake_light(Vec3(0.0), kTilesAStep) > 0) {
     }
-    for (const std::uint32_t tile : carving.take_changed_tiles()) {
-        renderer_.surface().set_patch(tile, carving.surface().shared_tile(tile));
-        if (const auto& light = carving.light()->shared_light(tile))
-            renderer_.surface().set_patch_light(tile, light->vertices);
-    }
+    shown_.resize(carving.surface().tile_count());
+    for (std::uint32_t tile = 0; tile < shown_.size(); ++tile) show_tile(carving, tile);
     std::vector<Box> inner = carving.light()->inner_boxes_object();
     const Vec3& origin = carving.surface().lattice().origin_object;
     for (Box& box : inner) box = {box.lo - origin, box.hi - origin};
     renderer_.surface().set_occluders(std::move(inner));
     return {};
+}
+
+// Knows what has changed by itself: a session that carves takes that from the workpiece for its own frames.
+void StrokePictures::show_tile(const sculpt::Sculpture& carving, std::uint32_t tile) {
+    const auto& mesh = carving.surface().shared_tile(tile);
+    const auto& light = carving.light()->shared_light(tile);
+    if (shown_[tile].mesh == mesh && shown_[tile].light == light) return;
+    shown_[tile] = {mesh, light};
+    renderer_.surface().set_patch(tile, mesh);
+    if (light) renderer_.surface().set_patch_light(tile, light->vertices);
 }
 
 picture::Picture StrokePictures::wall_scene(const sculpt::Sculpture& carving) const {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "base/error.hpp"
 #include "base/image.hpp"
@@ -13,6 +14,11 @@
 #include "gpu/device.hpp"
 #include "renderer/frame/renderer.hpp"
 #include "session/held/staging.hpp"
+
+namespace burin::compute {
+struct TileLight;  // compute/light/tile_light.hpp
+struct TileMesh;   // compute/mesher/tile_mesher.hpp
+}  // namespace burin::compute
 
 namespace burin::sculpt {
 class Sculpture;  // sculpt/sculpture.hpp
@@ -40,9 +46,14 @@ public:
     [[nodiscard]] double scene_scale() const { return world_from_object_.scale; }
 
 private:
+    struct ShownTile {
+        std::shared_ptr<const compute::TileMesh> mesh;
+        std::shared_ptr<const compute::TileLight> light;
+    };
     StrokePictures(std::filesystem::path folder, gpu::Device device, renderer::Renderer renderer,
                    const Box& bounds_object);
     [[nodiscard]] Result<void> bring_up_to_date(sculpt::Sculpture& carving);
+    void show_tile(const sculpt::Sculpture& carving, std::uint32_t tile);
     [[nodiscard]] picture::Picture wall_scene(const sculpt::Sculpture& carving) const;
     [[nodiscard]] picture::Picture close_scene(const sculpt::Sculpture& carving) const;
 
@@ -50,6 +61,7 @@ private:
     gpu::Device device_;
     renderer::Renderer renderer_;
     std::string device_name_;
+    std::vector<ShownTile> shown_;
     Similarity world_from_object_;
     Vec3 center_world_{0.0};
     double bottom_world_m_ = 0.0;  // the workpiece's lowest point

@@ -7,9 +7,9 @@
 #include <memory>
 #include <utility>
 
+#include "activities/carve/pressing_hand.hpp"
 #include "base/try.hpp"
 #include "scene/world_file.hpp"
-#include "session/felt/felt_stroke.hpp"
 
 namespace burin::activities {
 namespace {
@@ -119,7 +119,7 @@ Result<WandExploredWorld> explore_with_wand(const ExploredWorld& world, const sc
     const Vec3 workspace_m = devices::device_of(options.wand).workspace_m;
     placed.scene_from_device = devices::scene_from_device(options.wand);
     explored.fitted = !fits(stroke, placed.scene_from_device, workspace_m);
-    if (explored.fitted) placed.scene_from_device = session::fit_into_workspace(stroke, workspace_m);
+    if (explored.fitted) placed.scene_from_device = fit_into_workspace(stroke, workspace_m);
     explored.scene_from_device = placed.scene_from_device;
 
     PointTouches touches(*world.scene, options.points);

@@ -6,13 +6,13 @@
 #include <optional>
 #include <utility>
 
+#include "activities/carve/pressing_hand.hpp"
 #include "activities/world/opened_exploration.hpp"
 #include "base/try.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "scene/contact_follower.hpp"
 #include "scene/world_file.hpp"
-#include "session/felt/felt_stroke.hpp"
 
 namespace burin::activities {
 namespace {
@@ -111,7 +111,7 @@ Result<WorldFigures> explore_by_feel(const ExploredWorld& world, const sculpt::S
     WorldFigures figures;
     session::FeltFigures& felt = figures.felt;
     felt.workspace_device_m = devices::OmniModel{}.workspace_m;
-    felt.object_from_device = session::fit_into_workspace(stroke, felt.workspace_device_m);
+    felt.object_from_device = fit_into_workspace(stroke, felt.workspace_device_m);
     felt.duration_s = stroke.back().time_s - stroke.front().time_s + 2.0 * kRests_s;
     session::BroughtHand hand;
     BURIN_TRY(leads, hand_along(stroke, felt.object_from_device, options.grip));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "activities/carve/felt_stroke.hpp"
 #include "activities/carve/stroke_pictures.hpp"
 #include "app/carve/report.hpp"
 #include "app/cli/output_files.hpp"
@@ -23,7 +24,7 @@
 #include "sculpt/finishing.hpp"
 #include "sculpt/load_workpiece.hpp"
 #include "sculpt/stroke_file.hpp"
-#include "session/felt/felt_stroke.hpp"
+#include "session/felt/felt_figures.hpp"
 #include "session/record/input_files.hpp"
 #include "session/work/opened_work.hpp"
 #include "toolbox/tool_mesh.hpp"
@@ -120,23 +121,6 @@ Result<ChosenTool> choose_tool(const session::SessionSetup& options, std::option
     const bool is_a_file = settings.shape.kind == toolbox::ToolKind::mesh;
     BURIN_TRY_DO(workpiece::check_units(options.carve.workpiece, is_a_file));
     return ChosenTool{std::move(wanted), std::move(settings), std::move(tool)};
-}
-
-// Tells the user what the tool's file was read as, and whether a tool that is used suits the workpiece; returns the
-// tool's part of the report.
-Result<Json> introduce(const ChosenTool& chosen, const geometry::Material& material, double longest_side_m,
-                       double cell_m, bool is_used) {
-    Json report = toolbox::describe_tool(chosen.options, material);
-    if (chosen.settings.shape.kind == toolbox::ToolKind::mesh) {
-        BURIN_TRY(size, size_of_file(chosen.settings.shape));
-        report["size"] = size;
-        std::printf("%s\n", size.c_str());
-    }
-    const auto misfit = toolbox::misfit(chosen.settings, chosen.tool, longest_side_m, cell_m);
-    if (!is_used || !misfit) return report;
-    std::fprintf(stderr, "burin: %s\n", misfit->c_str());
-    report["misfit"] = *misfit;
-    return report;
 }
 
 // Prints the notices of the carving, such as that the processor goes on for a device, and returns them for the report.
@@ -238,6 +222,23 @@ Result<TakenUp> take_up_workpiece(const session::SessionSetup& options, const Ch
     return TakenUp{std::move(*opened.workpiece), std::move(chosen), material, longest_side_m};
 }
 
+// Tells the user what the tool's file was read as, and whether a tool that is used suits the workpiece, unless a
+// session will; returns the tool's part of the report.
+Result<Json> introduce(const TakenUp& taken_up, double cell_m, const session::StrokeOptions& stroke) {
+    const ChosenTool& chosen = taken_up.chosen;
+    Json report = toolbox::describe_tool(chosen.options, taken_up.material);
+    if (chosen.settings.shape.kind == toolbox::ToolKind::mesh) {
+        BURIN_TRY(size, size_of_file(chosen.settings.shape));
+        report["size"] = size;
+        std::printf("%s\n", size.c_str());
+    }
+    const auto misfit = toolbox::misfit(chosen.settings, chosen.tool, taken_up.longest_side_m, cell_m);
+    if (stroke.file.empty() || !misfit) return report;
+    if (stroke.hand == session::HandChoice::rigid) std::fprintf(stderr, "burin: %s\n", misfit->c_str());
+    report["misfit"] = *misfit;
+    return report;
+}
+
 // Opens the folder of the pictures; none where none are asked for.
 Result<std::optional<activities::StrokePictures>> open_pictures(const std::string& folder, const Box& bounds_object) {
     if (folder.empty()) return std::optional<activities::StrokePictures>();
@@ -246,42 +247,63 @@ Result<std::optional<activities::StrokePictures>> open_pictures(const std::strin
     return std::optional<activities::StrokePictures>(std::move(opened));
 }
 
-// Leads the tool along the stroke: exactly, or as a simulated hand feels its way. Returns what that has felt.
-Result<std::optional<session::FeltFigures>> carve_along(sculpt::Sculpture& carving,
-                                                        const session::SessionSetup& options,
-                                                        const StrokeInputs& inputs, const ChosenTool& chosen) {
-    const toolbox::Tool& tool = chosen.tool;
-    if (inputs.stroke.empty()) return std::optional<session::FeltFigures>();
-    if (options.carve.stroke.hand == session::HandChoice::rigid) {
-        BURIN_TRY_DO(sculpt::carve_rigidly(carving, inputs.stroke, tool, options.carve.stroke.merge_rows));
-        return std::optional<session::FeltFigures>();
-    }
-    session::FeltOptions felt_options{inputs.feel, options.carve.stroke.real_time, options.record.path};
-    if (!options.record.path.empty()) felt_options.facts = facts_of(options, chosen.options, carving.engine().name());
-    BURIN_TRY(carved, session::carve_by_feel(carving, inputs.stroke, tool, felt_options));
-    if (!options.record.path.empty())
-        std::printf("%s: %s ticks recorded\n", options.record.path.c_str(), std::to_string(carved.ticks).c_str());
-    return std::optional<session::FeltFigures>(std::move(carved));
+// Returns what a session needs to know of a workpiece that it has not loaded. Its size is told already.
+sculpt::MadeWorkpiece made_of(std::unique_ptr<sculpt::Sculpture> carving, const workpiece::LoadedWorkpiece& workpiece) {
+    workpiece::LoadedWorkpiece loaded;
+    loaded.unit = workpiece.unit;
+    loaded.size_m = workpiece.size_m;
+    loaded.bounds_object = workpiece.bounds_object;
+    const compute::Lattice lattice = carving->surface().lattice();
+    return {nullptr, std::move(loaded), lattice, std::move(carving)};
 }
 
-// Holds the results of a carving.
+// Holds the workpiece, and the results of its carving.
 struct CarvedStroke {
-    std::optional<session::FeltFigures> felt;  // of a simulated hand
+    std::unique_ptr<sculpt::Sculpture> rigidly;         // carved exactly; null: a session holds it
+    std::unique_ptr<activities::OpenedStroke> by_feel;  // of a simulated hand
+    std::optional<session::FeltFigures> felt;           // likewise
     std::vector<std::string> notices;
     Json undone;  // null: nothing was to be taken back
 };
 
+// Has a simulated hand feel its way along the stroke.
+Result<CarvedStroke> carve_by_feel(std::unique_ptr<sculpt::Sculpture> carving, const session::SessionSetup& options,
+                                   const StrokeInputs& inputs, const TakenUp& taken_up) {
+    session::SessionSetup setup = options;
+    setup.hands.tool = taken_up.chosen.options;
+    std::vector<std::pair<std::string, std::string>> facts;
+    if (!options.record.path.empty()) facts = facts_of(options, setup.hands.tool, carving->engine().name());
+    BURIN_TRY(opened,
+              activities::OpenedStroke::create(made_of(std::move(carving), taken_up.workpiece), inputs.stroke, setup));
+    BURIN_TRY(felt, opened->run(std::move(facts)));
+    if (!options.record.path.empty())
+        std::printf("%s: %s ticks recorded\n", options.record.path.c_str(), std::to_string(felt.ticks).c_str());
+    std::vector<std::string> notices = opened->messages();
+    return CarvedStroke{nullptr, std::move(opened), std::move(felt), std::move(notices), {}};
+}
+
+// Leads the tool exactly along the stroke.
+Result<CarvedStroke> carve_rigidly(std::unique_ptr<sculpt::Sculpture> carving, const session::SessionSetup& options,
+                                   const StrokeInputs& inputs, const toolbox::Tool& tool) {
+    carving->mirror(options.carve.mirror);
+    if (options.carve.stroke.undo > 0) carving->keep_history(options.carve.undo_memory_MiB << 20);
+    if (!inputs.stroke.empty())
+        BURIN_TRY_DO(sculpt::carve_rigidly(*carving, inputs.stroke, tool, options.carve.stroke.merge_rows));
+    std::vector<std::string> notices = tell_notices(*carving);
+    return CarvedStroke{std::move(carving), nullptr, std::nullopt, std::move(notices), {}};
+}
+
 // Carves along the stroke, and takes back what is asked.
-Result<CarvedStroke> carve(sculpt::Sculpture& carving, const session::SessionSetup& options, const StrokeInputs& inputs,
-                           const ChosenTool& chosen) {
-    carving.mirror(options.carve.mirror);
-    if (options.carve.stroke.undo > 0) carving.keep_history(options.carve.undo_memory_MiB << 20);
-    BURIN_TRY(felt, carve_along(carving, options, inputs, chosen));
-    CarvedStroke carved{std::move(felt), tell_notices(carving), {}};
-    if (options.carve.stroke.undo == 0) return carved;
-    BURIN_TRY(taken_back, take_back(carving, options.carve.stroke.undo));
+Result<CarvedStroke> carve(std::unique_ptr<sculpt::Sculpture> carving, const session::SessionSetup& options,
+                           const StrokeInputs& inputs, const TakenUp& taken_up) {
+    sculpt::Sculpture& workpiece = *carving;
+    const bool is_felt = !inputs.stroke.empty() && options.carve.stroke.hand == session::HandChoice::simulated;
+    BURIN_TRY(carved, is_felt ? carve_by_feel(std::move(carving), options, inputs, taken_up)
+                              : carve_rigidly(std::move(carving), options, inputs, taken_up.chosen.tool));
+    if (options.carve.stroke.undo == 0) return std::move(carved);
+    BURIN_TRY(taken_back, take_back(workpiece, options.carve.stroke.undo));
     carved.undone = std::move(taken_back);
-    return carved;
+    return std::move(carved);
 }
 
 // Describes the mesh and what finishing has changed of it.
@@ -343,12 +365,13 @@ Result<void> sculpt(const session::SessionSetup& options) {
     const compute::DeviceSource device = [&pictures] { return pictures ? pictures->lane() : compute::own_device(); };
     compute::ChosenEngine engine =
         compute::choose_engine(options.carve.engine, std::move(taken_up.workpiece.solid), pool, device);
-    sculpt::Sculpture carving(std::move(engine.engine), pool);
+    auto uncarved = std::make_unique<sculpt::Sculpture>(std::move(engine.engine), pool);
+    sculpt::Sculpture& carving = *uncarved;
     if (pictures) BURIN_TRY_DO((pictures)->take_before(carving));
     const double cell_m = carving.surface().lattice().spacing_m;
-    BURIN_TRY(tool_report, introduce(tool, taken_up.material, taken_up.longest_side_m, cell_m, !inputs.stroke.empty()));
+    BURIN_TRY(tool_report, introduce(taken_up, cell_m, options.carve.stroke));
     std::printf("%s\n", taken_up.workpiece.size.c_str());
-    BURIN_TRY(carved, carve(carving, options, inputs, tool));
+    BURIN_TRY(carved, carve(std::move(uncarved), options, inputs, taken_up));
 
     const LengthUnit export_unit = options.carve.exports.units.value_or(taken_up.workpiece.unit);
     BURIN_TRY(finished, sculpt::finish_mesh(
@@ -380,7 +403,6 @@ Result<void> sculpt(const session::SessionSetup& options) {
 }
 
 Result<void> record_again(const session::SessionSetup& options) {
-    BURIN_TRY(feel, toolbox::parse_feel(options.carve.feel));
     BURIN_TRY(stroke, sculpt::read_stroke(options.carve.stroke.file));
     WorkerPool pool(options.threads);
     BURIN_TRY(opened, open_work(options.carve.workpiece, pool));
@@ -388,13 +410,11 @@ Result<void> record_again(const session::SessionSetup& options) {
     BURIN_TRY(chosen_tool, choose_tool(options, std::nullopt));
     BURIN_TRY_DO(take_up(*workpiece, chosen_tool));
     compute::ChosenEngine chosen = compute::choose_engine(options.carve.engine, std::move(workpiece->solid), pool);
-    sculpt::Sculpture carving(std::move(chosen.engine), pool);
-    carving.mirror(options.carve.mirror);
-    if (options.carve.stroke.undo > 0) carving.keep_history(options.carve.undo_memory_MiB << 20);
-    const session::FeltOptions felt{feel, false, options.record.path};
-    const auto carved = session::carve_by_feel(carving, stroke, chosen_tool.tool, felt);
-    static_cast<void>(tell_notices(carving));
-    if (!carved) return std::unexpected(carved.error());
+    auto carving = std::make_unique<sculpt::Sculpture>(std::move(chosen.engine), pool);
+    session::SessionSetup setup = options;
+    setup.hands.tool = chosen_tool.options;
+    BURIN_TRY(opened_stroke, activities::OpenedStroke::create(made_of(std::move(carving), *workpiece), stroke, setup));
+    BURIN_TRY_DO(opened_stroke->run({}));
     return {};
 }
 

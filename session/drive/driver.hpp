@@ -2,7 +2,7 @@
 // Drives a session of any kind: one loop, which brings ticks and scene to the time of each frame and then makes it.
 //
 //   FrameSource   when the next frame is due, and how it is made: LiveFrames, ScriptedFrames, RecordedFrames
-//                 (session_frames.hpp), and the frames of a felt stroke, which only collect figures
+//                 (session_frames.hpp), and those of a session that nobody sees (headless_session.hpp)
 //   Executor      who runs the haptic ticks and the scene's updates: the caller step by step (SteppedExecutor), threads
 //                 (ThreadedExecutor), or the caller as a recording says (ThreadReplay, thread_replay.hpp)
 //

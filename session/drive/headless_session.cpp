@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "session/drive/headless_session.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/try.hpp"
 #include "haptics/channels.hpp"
+#include "haptics/haptic_loop.hpp"
 #include "session/drive/executors.hpp"
 #include "session/drive/thread_recorder.hpp"
 #include "session/live/session.hpp"
@@ -27,6 +29,7 @@ public:
     [[nodiscard]] std::optional<Nanoseconds> next() override {
         if (session_.state().quit || (next_ns_ > 0 && time_ns_ >= run_.lasts_ns)) return std::nullopt;
         time_ns_ = std::exchange(next_ns_, next_ns_ + scene::SceneService::kHandsMove_ns);
+        if (run_.ends_on_time) time_ns_ = std::min(time_ns_, run_.lasts_ns);
         return session_.start_ns() + time_ns_;
     }
 
@@ -45,6 +48,7 @@ public:
 
     [[nodiscard]] Result<void> finish(Executor& executor) {
         BURIN_TRY(last, executor.take_updates());
+        if (!input_.records()) empty_rings();  // of what threads have done since the last frame
         session_.finish_scene();
         recorder_.finish(last.updates);
         if (const auto& failed = input_.recording_error()) return std::unexpected(*failed);
@@ -57,12 +61,16 @@ private:
     [[nodiscard]] Result<void> take_records() {
         if (const auto file = input_.recording()) file->take_ticks();
         if (const auto& failed = input_.recording_error()) return std::unexpected(*failed);
-        if (input_.records()) return {};
-        haptics::TickRecord unread;
-        for (haptics::HapticChannels* const part : session_.channels_of_parts())
-            while (part->records.pop(unread)) {
-            }
+        if (!input_.records()) empty_rings();
         return {};
+    }
+
+    void empty_rings() {
+        haptics::TickRecord tick;
+        const std::vector<haptics::HapticChannels*> parts = session_.channels_of_parts();
+        for (std::size_t part = 0; part < parts.size(); ++part)
+            while (parts[part]->records.pop(tick))
+                if (run_.on_tick) run_.on_tick(part, tick);
     }
 
     Session& session_;
@@ -76,7 +84,7 @@ Result<InputSource> input_of(Session& session, const HeadlessRun& run) {
     if (session.options().record.path.empty()) return InputSource::live();
     SessionFacts facts = run.facts;
     facts.emplace_back(kViewerFact, kNoViewer);
-    BURIN_TRY(writer, create_recording(session.options(), facts, session));
+    BURIN_TRY(writer, create_recording(session.options(), facts, session, run.on_tick));
     return InputSource::live(std::move(writer));
 }
 
@@ -88,8 +96,24 @@ Result<void> run_headless(Session& session, SimulatedClock& clock, const Headles
     SteppedExecutor executor(clock, session.loop(), session.channels_of_parts(), session.scene(),
                              [&](const auto& ended) { static_cast<void>(session.collect(ended)); });
     executor.collect_after_updates_alone();
+    if (run.tick_ns != nullptr) executor.measure_ticks(*run.tick_ns);
     BURIN_TRY_DO(drive(executor, frames));
     return frames.finish(executor);
+}
+
+Result<std::string> run_headless_in_real_time(Session& session, Clock& clock, const HeadlessRun& run) {
+    BURIN_TRY(input, input_of(session, run));
+    HeadlessRun from_start = run;
+    HeadlessFrames frames(session, from_start, std::move(input));
+    ThreadedExecutor threads(clock, session.loop(), session.channels_of_parts(), session.scene(),
+                             {.lead_ns = haptics::HapticLoop::kLead_ns},
+                             [&](const auto& ended) { static_cast<void>(session.collect(ended)); });
+    haptics::RealtimeNotice notice = threads.start();
+    // Threads take a while to start, above all to lock memory; the hand begins with the first tick.
+    from_start.lasts_ns += clock.now_ns() - session.start_ns();
+    BURIN_TRY_DO(drive(threads, frames));
+    BURIN_TRY_DO(frames.finish(threads));
+    return std::move(notice.text);
 }
 
 }  // namespace burin::session

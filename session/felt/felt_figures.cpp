@@ -36,11 +36,6 @@ FigureKeeper::FigureKeeper(FeltFigures& figures, double duration_s, double perio
     figures_.trace_period_s = static_cast<double>(stretch_) * period_s;
 }
 
-void FigureKeeper::take(haptics::HapticChannels& channels) {
-    haptics::TickRecord record;
-    while (channels.records.pop(record)) add(record);
-}
-
 void FigureKeeper::finish(const haptics::HapticChannels& channels) {
     if (pending_force_N_ >= 0.0) figures_.trace.push_back(pending_);
     pending_force_N_ = -1.0;

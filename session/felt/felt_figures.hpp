@@ -83,9 +83,6 @@ public:
     static constexpr std::uint64_t kMostTracePoints = 4000;
     static constexpr std::size_t kCloseupTicks = 1000;
 
-    // Takes all that the ring holds: where nobody else reads it.
-    void take(haptics::HapticChannels& channels);
-    // Takes one record: where a recorder reads the ring and hands its records on.
     void add(const haptics::TickRecord& record);
     void finish(const haptics::HapticChannels& channels);
 

@@ -42,7 +42,7 @@ Result<std::unique_ptr<workpiece::Workpiece>> make_workpiece(const SessionSetup&
 void note_workpiece(const workpiece::Workpiece& made, const SessionSetup& options, Room& room, FoundOut& found) {
     const workpiece::LoadedWorkpiece& workpiece = made.loaded();
     const compute::Lattice& lattice = made.surface().lattice();
-    std::fprintf(stderr, "burin: %s\n", workpiece.size.c_str());
+    if (!workpiece.size.empty()) std::fprintf(stderr, "burin: %s\n", workpiece.size.c_str());
     found.unit = workpiece.unit;
     found.holes_closed = !workpiece.closed.empty();
     room.workpiece_object = workpiece.bounds_object;

@@ -42,7 +42,7 @@ void Session::step(const Input& input, Leader& leader, const Give& give) {
             step.led_hand, step.led.hand_way, time_.step_ns, *step.led.hand,
             state_.mouse == MouseMode::surface ? SessionHands::Source::mouse : SessionHands::Source::path);
     carry_out(std::move(orders), give);
-    scene_.light(state_, step.led.turns_scene, time_.step_ns, give);
+    if (!activity_.brought_hand()) scene_.light(state_, step.led.turns_scene, time_.step_ns, give);  // for who looks on
     work_.take_outcomes();
     for (const std::string& message : leader.watch(state_, tool_in_use())) notify(message);
     for (const std::string& message : hands().take_messages()) notify_of_event(message);

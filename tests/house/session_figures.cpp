@@ -123,10 +123,10 @@ std::vector<Figure> session_figures(const std::filesystem::path& root) {
     const auto count = [&figures](std::string what, std::vector<std::string> found, double bar) {
         figures.push_back({std::move(what), static_cast<double>(found.size()), bar, std::move(found), ""});
     };
-    count("includes of sculpt/ in session/ and desk/", std::move(carving), 3.0);
+    count("includes of sculpt/ in session/ and desk/", std::move(carving), 0.0);
     count("uses of one struct for all options", reading.files_with("\\bSculptOptions\\b"), 0.0);
     count("haptic loops made outside of session/hands/",
-          reading.files_with("\\bHapticLoop loop_?[({;]", {"session/hands/", "haptics/", "bench/"}), 2.0);
+          reading.files_with("\\bHapticLoop loop_?[({;]", {"session/hands/", "haptics/", "bench/"}), 0.0);
     count("ticks that study/ computes by itself",
           reading.files_with("\\bfull_tick\\(", {"haptics/", "bench/", "docs/"}), 1.0);
     std::vector<std::string> members = private_members(read_text(root / "session/live/session.hpp"), "Session");

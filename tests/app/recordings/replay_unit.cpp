@@ -288,4 +288,20 @@ TEST(ReplayOfAFeltStroke, IsEqualToTheBitAndTellsTheFirstDifference) {
     EXPECT_EQ(at.run(kReplayBurin + " replay e.session").status, 0);
 }
 
+// Felt strokes became sessions, and nothing that is felt in them is another.
+TEST(ReplayOfAFeltStroke, OfARecordingFromBeforeStrokesWereSessionsIsEqualToTheBit) {
+    const std::filesystem::path old = std::filesystem::absolute("tests/app/recordings/old");
+    for (const std::string name : {"ball.session", "cylinder.session"}) {
+        const Workplace at;
+        std::filesystem::copy_file(old / name, at / name);
+        const auto reader = record::RecordReader::open(at / name);
+        ASSERT_TRUE(reader) << reader.error().line();
+        if (reader->fact("compiler") != __VERSION__) GTEST_SKIP() << "another compiler's program";
+        const auto again =
+            at.run(kReplayBurin + " replay " + name + " --stroke '" + (old / "press.csv").string() + "'");
+        EXPECT_EQ(again.status, 0) << again.output;
+        EXPECT_TRUE(says_so(again, name + ": 700 ticks, 74 columns: equal to the bit")) << again.output;
+    }
+}
+
 }  // namespace burin::app

@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 
+#include "activities/carve/felt_stroke.hpp"
 #include "haptics/forces/cutting.hpp"
-#include "sculpt/load_workpiece.hpp"
-#include "session/felt/felt_stroke.hpp"
 #include "tests/haptics/cutting_ball.hpp"
 #include "tests/support/run_command.hpp"
 
-namespace burin::session {
+namespace burin::activities {
 namespace {
 
 constexpr double kRadius_m = 0.003;
@@ -21,24 +21,29 @@ constexpr double kMiddle_m = 0.02, kAside_m = 0.015;
 constexpr double kPi = 3.14159265358979;
 
 struct Felt {
-    FeltFigures figures;
+    session::FeltFigures figures;
     double volume_removed_m3 = 0.0;
 };
 
-Felt felt_on(const std::string& block, int resolution, const toolbox::Tool& tool, const sculpt::Stroke& stroke,
+Felt felt_on(const std::string& block, int resolution, const toolbox::ToolOptions& tool, const sculpt::Stroke& stroke,
              const toolbox::FeelOptions& options) {
-    WorkerPool pool(2);
-    Result<workpiece::LoadedWorkpiece> workpiece = sculpt::load_workpiece({block, resolution, false}, pool);
-    sculpt::Sculpture carving(compute::make_cpu_engine(std::move(workpiece->solid), pool), pool);
+    Result<sculpt::MadeWorkpiece> made = sculpt::make_workpiece({block, resolution, false}, compute::on_processor, 2);
+    const sculpt::Sculpture& carving = *made->carving;
+    session::SessionSetup setup;
+    setup.hands.tool = tool;
+    setup.carve.feel = options;
+    const auto opened = OpenedStroke::create(std::move(*made), stroke, setup);
     Felt felt;
-    felt.figures = *carve_by_feel(carving, stroke, tool, {*toolbox::parse_feel(options), false});
+    felt.figures = *(*opened)->run({});
     felt.volume_removed_m3 = carving.initial_volume_m3() - carving.surface().volume_m3();
     return felt;
 }
 
+toolbox::ToolOptions ball_tool(double radius_m) { return {.shape = "ball:" + std::to_string(radius_m)}; }
+
 Felt felt_on_a_block(const sculpt::Stroke& stroke, const toolbox::FeelOptions& options,
                      compute::Operation operation = compute::Operation::cut) {
-    toolbox::Tool tool{compute::BallTool{kRadius_m}};
+    toolbox::ToolOptions tool = ball_tool(kRadius_m);
     tool.operation = operation;
     return felt_on("block:0.04,0.03,0.02", 96, tool, stroke, options);
 }
@@ -62,11 +67,11 @@ sculpt::Stroke along(double speed_m_per_s) {
 struct Running {
     double depth_m = 0.0, press_N = 0.0, drag_N = 0.0, speed_m_per_s = 0.0;
 };
-Running running(const FeltFigures& felt) {
+Running running(const session::FeltFigures& felt) {
     Running sum;
     int count = 0;
-    const TracePoint *first = nullptr, *last = nullptr;
-    for (const TracePoint& p : felt.trace) {
+    const session::TracePoint *first = nullptr, *last = nullptr;
+    for (const session::TracePoint& p : felt.trace) {
         if ((p.flags & haptics::kTickCutting) == 0 || p.cut_object_m.x < kMiddle_m - 0.002 ||
             p.cut_object_m.x > kMiddle_m + 0.006)
             continue;
@@ -139,7 +144,7 @@ TEST(Felt, PressedOnTheSpotTheToolSinksAsTheClosedFormSays) {
     // dF/dt: the depth's own closed form needs the force, which falls as the tool sinks; it is summed up from the
     // trace: H * integral of A_nn(D) dD = integral of F dt.
     double impulse_Ns = 0.0, depth_m = 0.0, last_s = -1.0;
-    for (const TracePoint& p : felt.figures.trace) {
+    for (const session::TracePoint& p : felt.figures.trace) {
         if ((p.flags & haptics::kTickCutting) == 0) continue;
         if (last_s >= 0.0) impulse_Ns += p.force_device_N.z * (p.time_s - last_s);
         last_s = p.time_s;
@@ -161,8 +166,8 @@ TEST(Felt, PressedOnTheSpotTheToolComesToRestWhereItsSectionAtTheYieldBearsThePr
         toolbox::FeelOptions options = feel(8.0, 0.0);
         options.yield_kPa = yield_kPa;
         const Felt felt = felt_on_a_block(stroke, options);
-        const TracePoint* last = nullptr;
-        for (const TracePoint& p : felt.figures.trace) {
+        const session::TracePoint* last = nullptr;
+        for (const session::TracePoint& p : felt.figures.trace) {
             if ((p.flags & haptics::kTickCutting) != 0) last = &p;
         }
         ASSERT_NE(last, nullptr);
@@ -179,7 +184,7 @@ TEST(Felt, AToolIsHeldByTheMaterialHoweverLargeItIsAndHoweverFineTheBlock) {
     toolbox::FeelOptions options = feel(2.0, 0.0);
     options.yield_kPa = kYield_Pa / 1e3;
     options.grip_N_per_m = kGrip_N_per_m;
-    const auto pulled = [&](const toolbox::Tool& tool, double half_height_m, int resolution) {
+    const auto pulled = [&](const toolbox::ToolOptions& tool, double half_height_m, int resolution) {
         sculpt::Stroke stroke;
         const auto to = [&](double time_s, double x, double height_m, bool button) {
             stroke.push_back({time_s, {x, 0.025, 0.02 + half_height_m + height_m}, {1, 0, 0, 0}, button});
@@ -193,9 +198,9 @@ TEST(Felt, AToolIsHeldByTheMaterialHoweverLargeItIsAndHoweverFineTheBlock) {
     };
     for (const int resolution : {96, 288}) {
         for (const double radius_m : {0.004, 0.01, 0.018}) {
-            const Felt felt = pulled({compute::BallTool{radius_m}}, radius_m, resolution);
+            const Felt felt = pulled(ball_tool(radius_m), radius_m, resolution);
             double depth_m = 0.0, force_N = 0.0, count = 0.0;
-            for (const TracePoint& p : felt.figures.trace) {
+            for (const session::TracePoint& p : felt.figures.trace) {
                 if ((p.flags & haptics::kTickCutting) == 0 || p.cut_object_m.x < 0.025 || p.cut_object_m.x > 0.032)
                     continue;
                 depth_m = std::max(depth_m, 0.02 + radius_m - p.cut_object_m.z);
@@ -210,8 +215,7 @@ TEST(Felt, AToolIsHeldByTheMaterialHoweverLargeItIsAndHoweverFineTheBlock) {
             const double rest_m = force_N / (2.0 * kPi * radius_m * kYield_Pa);
             EXPECT_LT(depth_m, 2.0 * rest_m + 0.01 * radius_m) << radius_m << ' ' << resolution;
         }
-        const double side_m = 0.016;
-        const Felt felt = pulled({compute::BoxTool{Vec3(0.5 * side_m)}}, 0.5 * side_m, resolution);
+        const Felt felt = pulled({.shape = "box:0.016,0.016,0.016"}, 0.008, resolution);
         EXPECT_GT(felt.figures.force_mean_cutting_N, 0.6 * kGrip_N_per_m * kDeep_m) << resolution;
         EXPECT_LT(felt.volume_removed_m3, 5e-9) << resolution;  // a hundredth of a millimetre of its way
     }
@@ -236,7 +240,7 @@ TEST(Felt, AToolThatCrossesItsOwnGroovesSettlesWithinATicksSteps) {
 TEST(Felt, TheForceIsSmoothWhileSurfacesArrive) {
     const Felt felt = felt_on_a_block(along(0.04), feel(6.0, 1.0));
     ASSERT_GT(felt.figures.closeup.size(), 500u);
-    const std::vector<TracePoint>& trace = felt.figures.closeup;
+    const std::vector<session::TracePoint>& trace = felt.figures.closeup;
     double largest_N = 0.0, force_N = 0.0;
     for (std::size_t i = 1; i < trace.size(); ++i) {
         if ((trace[i].flags & haptics::kTickCutting) == 0 || (trace[i - 1].flags & haptics::kTickCutting) == 0)
@@ -308,16 +312,16 @@ TEST(Felt, OptionsThatMakeNoSenseAreRefusedWithTheRemedy) {
 
 TEST(Felt, FigureAndTableHoldTheTraceAndLieBesideTheReport) {
     const Felt felt = felt_on_a_block(along(0.04), feel(6.0, 1.0));
-    EXPECT_EQ(felt_figure_path("out/report.json"), "out/report-felt.svg");
-    EXPECT_EQ(felt_table_path("r.json"), "r-felt.csv");
-    EXPECT_EQ(felt_depth_path("r.json"), "r-depth.svg");
-    const std::string table = felt_table(felt.figures), figure = felt_figure(felt.figures);
+    EXPECT_EQ(session::felt_figure_path("out/report.json"), "out/report-felt.svg");
+    EXPECT_EQ(session::felt_table_path("r.json"), "r-felt.csv");
+    EXPECT_EQ(session::felt_depth_path("r.json"), "r-depth.svg");
+    const std::string table = session::felt_table(felt.figures), figure = session::felt_figure(felt.figures);
     EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(table, '\n')), felt.figures.trace.size() + 1);
     EXPECT_EQ(figure.rfind("<svg", 0), 0u);
     EXPECT_NE(figure.find("</svg>"), std::string::npos);
     EXPECT_EQ(figure.find("nan"), std::string::npos);
-    EXPECT_EQ(felt_figure(felt_on_a_block(along(0.04), feel(6.0, 1.0)).figures), figure);
-    EXPECT_EQ(felt_figure({}).rfind("<svg", 0), 0u);  // nothing felt, nothing drawn, no fault
+    EXPECT_EQ(session::felt_figure(felt_on_a_block(along(0.04), feel(6.0, 1.0)).figures), figure);
+    EXPECT_EQ(session::felt_figure({}).rfind("<svg", 0), 0u);  // nothing felt, nothing drawn, no fault
 }
 
-}  // namespace burin::session
+}  // namespace burin::activities
