@@ -44,8 +44,12 @@ struct HandNews {
     // Adds later news.
     void add(HandNews later) {
         if (ticks.size() < later.ticks.size()) ticks.resize(later.ticks.size());
-        for (std::size_t part = 0; part < later.ticks.size(); ++part)
-            std::ranges::move(later.ticks[part], std::back_inserter(ticks[part]));
+        for (std::size_t part = 0; part < later.ticks.size(); ++part) {
+            if (ticks[part].empty())
+                ticks[part] = std::move(later.ticks[part]);  // a tick is several kilobytes
+            else
+                std::ranges::move(later.ticks[part], std::back_inserter(ticks[part]));
+        }
         std::ranges::move(later.contacts, std::back_inserter(contacts));
     }
 };

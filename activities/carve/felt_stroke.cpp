@@ -131,12 +131,13 @@ Result<std::unique_ptr<OpenedStroke>> OpenedStroke::create(sculpt::MadeWorkpiece
     BURIN_TRY(hand, pressing_hand(carving, stroke, tool.shape, felt_tool.surface, feel, figures.object_from_device));
 
     session::BroughtHand brought;
-    brought.placed.scene_from_device = figures.object_from_device;
+    session::PlacedHand& placed = brought.placed.emplace();
+    placed.scene_from_device = figures.object_from_device;
     const devices::HandTarget start = hand.target(0.0);
-    brought.placed.rest_device = {start.position_device_m, start.orientation_device};
-    brought.placed.begins_scene_m = stroke.front().position_object_m;
+    placed.rest_device = {start.position_device_m, start.orientation_device};
+    placed.begins_scene_m = stroke.front().position_object_m;
     // Far enough for the fastest hand to stay inside the known ball until the next update: 1 m/s for 12 ms.
-    brought.placed.reach_m = 0.012 * figures.object_from_device.scale + 2.0 * carving.surface().lattice().spacing_m;
+    placed.reach_m = 0.012 * figures.object_from_device.scale + 2.0 * carving.surface().lattice().spacing_m;
     brought.leads = std::move(hand);
 
     Clock& clock = opened->real_time_ ? static_cast<Clock&>(opened->monotonic_) : opened->simulated_;

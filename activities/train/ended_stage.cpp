@@ -3,7 +3,7 @@
 
 #include "base/text.hpp"
 #include "base/try.hpp"
-#include "study/felt/stage_session.hpp"
+#include "study/felt/repeated_stage.hpp"
 #include "study/people/recorded_trial.hpp"
 
 namespace burin::activities {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "activities/train/participant_session.hpp"
 #include "activities/train/recorded_visit.hpp"
 #include "base/places.hpp"
 #include "base/try.hpp"
@@ -56,17 +57,6 @@ Result<void> check_visit_input(const std::string& file) {
         "give a written log, which begins with burin-input 1; burin study replay STUDY does recorded stages again");
 }
 
-session::SessionSetup participant_session(const session::SessionSetup& setup, std::shared_ptr<StudyActivity> activity) {
-    session::SessionSetup session = setup;
-    session.scene = {};
-    session.scene.given = activity->scene();
-    session.scene.no_workpiece = true;
-    session.activity = std::move(activity);
-    session.hands.tool.shape = "ball:0.001";  // a point, as far as a session's tool can be one
-    session.desk.panel_window = true;
-    return session;
-}
-
 Result<std::unique_ptr<LiveVisit>> LiveVisit::prepare(study::StudyFolder& study, const LiveVisitOptions& options) {
     BURIN_TRY_DO(check_record(options.session.record.path, study.path()));
     BURIN_TRY(plan, plan_visit(study, options.participant, options.leave, study::now_utc_ns()));
@@ -94,13 +84,13 @@ LiveVisit::LiveVisit(study::StudyFolder& study, const LiveVisitOptions& options,
       plan_(std::move(plan)),
       device_(std::move(device)),
       worlds_(std::move(worlds)),
-      disk_(study, participant_, group,
-            options.records_motion ? StageOnDisk::Motion::session_ticks : StageOnDisk::Motion::none, device_.held,
-            options.provenance),
+      disk_(study, participant_, group, options.records_motion ? StageOnDisk::Motion::ticks : StageOnDisk::Motion::none,
+            device_.held, options.provenance),
       activity_(std::make_shared<StudyActivity>(
           study.protocol(), group, worlds_, plan_.places,
-          visit_settings(study.facts().protocol_digest, group, plan_.places), StudyDevice{device_.wand, participant_},
-          keeper(), std::vector<std::pair<std::string, std::string>>{{kProtocolTextFact, study.protocol_text()}})) {
+          visit_settings(study.facts().protocol_digest, group, plan_.places),
+          StudyDevice{device_.wand, participant_, true}, keeper(),
+          std::vector<std::pair<std::string, std::string>>{{kProtocolTextFact, study.protocol_text()}})) {
     setup_.hands.device = device_.opened;
 }
 

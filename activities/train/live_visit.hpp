@@ -21,11 +21,6 @@ namespace burin::activities {
 // Refuses a recording as a participant's input: what it holds would be counted as theirs.
 [[nodiscard]] Result<void> check_visit_input(const std::string& file);
 
-// Gives the options of a participant's session: the study's worlds alone, touched with points; the operator's panel is
-// in a window of its own, whatever the options say, so that the participant's picture has the page and no more.
-[[nodiscard]] session::SessionSetup participant_session(const session::SessionSetup& setup,
-                                                        std::shared_ptr<StudyActivity> activity);
-
 struct LiveVisitOptions {
     std::string participant;
     session::SessionSetup session;

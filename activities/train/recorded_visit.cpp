@@ -16,12 +16,15 @@ namespace burin::activities {
 namespace {
 
 constexpr std::size_t kDigestShown = 12;
+// Recordings of before December 2026 lack it.
+constexpr std::string_view kPlacedWord = "placed";
 
 // Holds what a record's settings say about the visit.
 struct VisitWords {
     std::string protocol_digest, group;  // the digest's beginning
     std::size_t day = 0;
     std::vector<std::size_t> places;
+    bool placed = false;  // StudyDevice::placed
 };
 
 std::unexpected<Error> not_of_a_visit(const std::string& settings) {
@@ -29,13 +32,13 @@ std::unexpected<Error> not_of_a_visit(const std::string& settings) {
 }
 
 Result<VisitWords> visit_words(const std::string& settings) {
-    std::array<char, 16> digest{};
+    std::array<char, 16> digest{}, placed{};
     std::array<char, 64> group{}, places{};
     std::size_t day = 0;
-    if (std::sscanf(settings.c_str(), "study run %15s group %63s day %zu stages %63s", digest.data(), group.data(),
-                    &day, places.data()) != 4)
+    if (std::sscanf(settings.c_str(), "study run %15s group %63s day %zu stages %63s %15s", digest.data(), group.data(),
+                    &day, places.data(), placed.data()) < 4)
         return not_of_a_visit(settings);
-    VisitWords words{digest.data(), group.data(), day, {}};
+    VisitWords words{digest.data(), group.data(), day, {}, placed.data() == kPlacedWord};
     std::size_t place = 0;
     for (const char c : std::string(places.data()) + ",") {
         if (c >= '0' && c <= '9' && place < 100000) {
@@ -76,8 +79,9 @@ std::string visit_settings(const std::string& protocol_digest, const study::Grou
                            const std::vector<study::StagePlace>& places) {
     std::string numbers;
     for (const study::StagePlace& at : places) numbers += (numbers.empty() ? "" : ",") + std::to_string(at.place);
-    return formatted("study run %s group %s day %zu stages %s", protocol_digest.substr(0, kDigestShown).c_str(),
-                     group.code.c_str(), places.front().day, numbers.c_str());
+    return formatted("study run %s group %s day %zu stages %s ", protocol_digest.substr(0, kDigestShown).c_str(),
+                     group.code.c_str(), places.front().day, numbers.c_str()) +
+           std::string(kPlacedWord);
 }
 
 Result<session::MadeActivity> visit_as_recorded(const std::string& settings, const session::RecordedFact& fact) {
@@ -93,7 +97,7 @@ Result<session::MadeActivity> visit_as_recorded(const std::string& settings, con
     if (group == visit->protocol.groups.end() || places.size() != words.places.size()) return not_of_a_visit(settings);
     BURIN_TRY(worlds, felt_worlds(visit->protocol));
     visit->worlds = std::move(worlds);
-    StudyDevice device;
+    StudyDevice device{.placed = words.placed};
     if (const std::string text = fact(record::kWandTextFact); !text.empty()) {
         devices::WandOrProblems wand = devices::parse_wand(text, record::kWandTextFact);
         if (!wand) return std::unexpected(wand.error().front());

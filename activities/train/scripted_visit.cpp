@@ -2,19 +2,97 @@
 #include "activities/train/scripted_visit.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <iterator>
+#include <memory>
+#include <optional>
 #include <utility>
 
-#include "base/text.hpp"
+#include "activities/train/participant_session.hpp"
 #include "base/try.hpp"
-#include "devices/haptic/simulated_wand.hpp"
+#include "session/drive/headless_session.hpp"
+#include "session/live/session.hpp"
 #include "study/folder/interruption.hpp"
 
 namespace burin::activities {
 namespace {
 
-constexpr Nanoseconds kVisitTick_ns = 1'000'000;
-constexpr std::int64_t kFramesASecond = 60;
+// An operator's command as an act of the activity.
+std::vector<std::string> words_of(const OperatorCommand& command) {
+    switch (command.says) {
+        case OperatorSays::start: return {"start"};
+        case OperatorSays::next: return {"next"};
+        case OperatorSays::pause: return {"pause"};
+        case OperatorSays::go_on: return {"go-on"};
+        case OperatorSays::stop: return {"stop"};
+        case OperatorSays::repeat: return {"repeat"};
+        case OperatorSays::note: return {"note", command.text};
+    }
+    return {};
+}
+
+// What becomes of the stages: their files, the figures, and what is told of them. The first failure ends the visit.
+class ScriptedStages {
+public:
+    ScriptedStages(StageOnDisk& disk, const VisitOptions& options) : disk_(disk), options_(options) {}
+
+    [[nodiscard]] StageKeeper keeper() {
+        return {[this](const TrainingRun& run) { return note(disk_.begin(run)); },
+                [this](const TrainingRun::Ticked& ticked) {
+                    disk_.take(ticked);
+                    ++figures_.ticks;
+                },
+                [this](const std::vector<RunEvent>& events) {
+                    std::ranges::copy(events, std::back_inserter(events_));
+                    return note(disk_.take(events));
+                },
+                [this](const EndedStage& ended) { return note(end_stage(ended)); },
+                [this] { return note(disk_.close()); }};
+    }
+    // Is told which activity the stages are of, before the first.
+    void follow(const StudyActivity& activity) { activity_ = &activity; }
+
+    void begin_frame(Nanoseconds time_ns) { figures_.simulated_s = seconds(time_ns); }
+    [[nodiscard]] Result<void> end_frame() {
+        BURIN_TRY_DO(show());
+        return failure_ ? Result<void>(std::unexpected(*failure_)) : Result<void>{};
+    }
+    void refuse(const VisitScript::Said& said, const std::string& why) {
+        ++figures_.without_effect;
+        tell(said.where + ": " + said.text + " had no effect: " + why);
+    }
+    [[nodiscard]] Result<VisitFigures> outcome() const {
+        return failure_ ? Result<VisitFigures>(std::unexpected(*failure_)) : Result<VisitFigures>(figures_);
+    }
+
+private:
+    Result<void> note(Result<void> done) {
+        if (!done && !failure_) failure_ = done.error();
+        return done;
+    }
+    Result<void> show() {
+        if (!options_.on_frame) return {};
+        TrainingShown shown = activity_->shown();
+        shown.events = std::exchange(events_, {});
+        return options_.on_frame(figures_.simulated_s, shown, activity_->run());
+    }
+    void tell(const std::string& line) const {
+        if (options_.tell) options_.tell(figures_.simulated_s, line);
+    }
+    Result<void> end_stage(const EndedStage& ended) {
+        BURIN_TRY_DO(show());
+        ++figures_.stages;
+        tell(outcome_text(*disk_.at().stage, ended.end));
+        return disk_.end(ended);
+    }
+
+    StageOnDisk& disk_;
+    const VisitOptions& options_;
+    const StudyActivity* activity_ = nullptr;
+    VisitFigures figures_;
+    std::vector<RunEvent> events_;
+    std::optional<Error> failure_;
+};
 
 // From the script's frame into the device's.
 std::vector<devices::HandPose> at_device(std::vector<devices::HandPose> hand, const devices::WandDescription& wand) {
@@ -27,85 +105,54 @@ std::vector<devices::HandPose> at_device(std::vector<devices::HandPose> hand, co
     return hand;
 }
 
-// Runs the visit in simulated time, tick by tick.
-class ScriptedVisit {
+// The script at the frames of a session: its words, and what became of them.
+class ScriptFrames {
 public:
-    ScriptedVisit(TrainingRun& run, StageOnDisk& disk, const VisitScript& script, const VisitOptions& options,
-                  devices::SimulatedHand hand, const devices::WandDescription& wand)
-        : run_(run), disk_(disk), script_(script), options_(options), wand_(std::move(hand), wand, &clock_) {}
+    // All must outlive it.
+    ScriptFrames(const VisitScript& script, const StudyActivity& activity, ScriptedStages& stages)
+        : script_(script),
+          activity_(activity),
+          stages_(stages),
+          end_ns_(nanoseconds(script.end_s) + kAfterLastWord_ns) {}
 
-    Result<VisitFigures> go() {
-        constexpr double kSameTick = 1e-6;  // of rounding; the last line's time is reached
-        const auto last = static_cast<std::int64_t>(std::ceil(script_.end_s * 1000.0 - kSameTick));
-        for (std::int64_t tick = 0; tick <= last && run_.phase() != TrainingRun::Phase::finished; ++tick) {
-            clock_.sleep_until(kNanosecondsPerSecond + tick * kVisitTick_ns);  // a loop's clock is never 0
-            const bool is_frame =
-                tick * kFramesASecond / 1000 != (tick - 1) * kFramesASecond / 1000 || tick == 0 || tick == last;
-            if (is_frame) BURIN_TRY_DO(frame(seconds(tick * kVisitTick_ns)));
-            const TrainingRun::Ticked ticked = run_.tick(wand_.read(), clock_.now_ns());
-            wand_.write(ticked.record != nullptr ? ticked.record->gate.given : devices::DeviceWrench{});
-            disk_.take(ticked);
-            figures_.ticks += ticked.record != nullptr ? 1 : 0;
-            if (run_.phase() == TrainingRun::Phase::ended) {
-                BURIN_TRY_DO(end_stage(seconds(tick * kVisitTick_ns)));
-                if (run_.stopped()) break;
-            }
-            figures_.simulated_s = seconds(tick * kVisitTick_ns);
-        }
+    [[nodiscard]] bool plan(Nanoseconds time_ns) const { return time_ns <= end_ns_; }
+
+    [[nodiscard]] Result<void> make(const session::HeadlessFrame& frame) {
+        stages_.begin_frame(frame.time_ns);
+        BURIN_TRY_DO(frame.step({}));
+        if (frames_++ >= kFirstFrames) BURIN_TRY_DO(say(frame));
+        return stages_.end_frame();
+    }
+
+    // Tells the words that the visit's end has left unsaid.
+    void refuse_the_rest() {
         for (; said_ < script_.said.size(); ++said_)
-            refuse(figures_.simulated_s, script_.said[said_], "the visit has ended before; leave it out");
-        figures_.interrupted = run_.phase() == TrainingRun::Phase::in_stage;
-        BURIN_TRY_DO(disk_.take(run_.frame(clock_.now_ns()).events));
-        BURIN_TRY_DO(disk_.close());
-        return figures_;
+            stages_.refuse(script_.said[said_], "the visit has ended before; leave it out");
     }
 
 private:
-    Result<void> frame(double time_s) {
-        for (; said_ < script_.said.size() && script_.said[said_].time_s <= time_s; ++said_) {
+    // What is said last acts with the next tick, of which a frame knows later.
+    static constexpr Nanoseconds kAfterLastWord_ns = 3 * kNanosecondsPerSecond / kFramesASecond;
+
+    [[nodiscard]] Result<void> say(const session::HeadlessFrame& frame) {
+        const Nanoseconds time_ns = frame.time_ns;
+        for (; said_ < script_.said.size() && nanoseconds(script_.said[said_].time_s) <= time_ns; ++said_) {
             const VisitScript::Said& said = script_.said[said_];
-            if (const auto ok = run_.check(said.command); !ok) {
-                refuse(time_s, said, ok.error().what + "; " + ok.error().remedy);
+            if (const auto ok = activity_.run().check(said.command); !ok) {
+                stages_.refuse(said, ok.error().what + "; " + ok.error().remedy);
                 continue;
             }
-            const auto before = run_.phase();
-            run_.command(said.command, clock_.now_ns());
-            if (before == TrainingRun::Phase::between && run_.phase() == TrainingRun::Phase::in_stage)
-                BURIN_TRY_DO(disk_.begin(run_));
+            const std::array input{session::InputEvent{time_ns, session::CommandInput{"do", words_of(said.command)}}};
+            BURIN_TRY_DO(frame.step(input));
         }
-        const TrainingShown shown = run_.frame(clock_.now_ns());
-        BURIN_TRY_DO(disk_.take(shown.events));
-        if (options_.on_frame) BURIN_TRY_DO(options_.on_frame(time_s, shown, run_));
         return {};
     }
 
-    void refuse(double time_s, const VisitScript::Said& said, const std::string& why) {
-        ++figures_.without_effect;
-        tell(time_s, said.where + ": " + said.text + " had no effect: " + why);
-    }
-
-    void tell(double time_s, const std::string& line) const {
-        if (options_.tell) options_.tell(time_s, line);
-    }
-
-    Result<void> end_stage(double time_s) {
-        const TrainingShown shown = run_.frame(clock_.now_ns());
-        BURIN_TRY_DO(disk_.take(shown.events));
-        if (options_.on_frame) BURIN_TRY_DO(options_.on_frame(time_s, shown, run_));
-        ++figures_.stages;
-        const study::Stage& stage = *run_.place()->stage;
-        const EndedStage ended = run_.take_end();
-        tell(time_s, outcome_text(stage, ended.end));
-        return disk_.end(ended);
-    }
-
-    TrainingRun& run_;
-    StageOnDisk& disk_;
     const VisitScript& script_;
-    const VisitOptions& options_;
-    SimulatedClock clock_;
-    devices::SimulatedWand wand_;
-    VisitFigures figures_;
+    const StudyActivity& activity_;
+    ScriptedStages& stages_;
+    Nanoseconds end_ns_;
+    int frames_ = 0;
     std::size_t said_ = 0;
 };
 
@@ -125,12 +172,27 @@ Result<VisitFigures> run_scripted_visit(study::StudyFolder& study, const std::st
     BURIN_TRY(hand, devices::SimulatedHand::create(at_device(script.hand, wand)));
     const study::HeldDevice held{study::kScriptedDevice, study::Hand::script};
     BURIN_TRY_DO(begin_visit(study, participant, held, plan));
-    TrainingRun run(study.protocol(), *group, worlds, plan.places);
     StageOnDisk disk(study, participant, *group,
                      options.records ? StageOnDisk::Motion::ticks : StageOnDisk::Motion::none, held,
                      options.provenance);
-    auto figures = ScriptedVisit(run, disk, script, options, std::move(hand), wand).go();
-    if (figures) figures->left = wanted - figures->stages;
+    ScriptedStages stages(disk, options);
+    BURIN_TRY(device, led_wand(wand, std::move(hand), participant));
+    const auto activity = std::make_shared<StudyActivity>(study.protocol(), *group, worlds, plan.places,
+                                                          "study run --input", std::move(device), stages.keeper());
+    stages.follow(*activity);
+    SimulatedClock clock;
+    clock.sleep_until(kNanosecondsPerSecond);  // a loop's clock is never 0
+    BURIN_TRY(session, session::Session::create(unseen_session(activity), clock));
+    session->log().print_nothing();
+    ScriptFrames frames(script, *activity, stages);
+    session::HeadlessRun run{.frames_a_second = kFramesASecond};
+    run.plan = [&](Nanoseconds time_ns) { return frames.plan(time_ns); };
+    run.make_frame = [&](const session::HeadlessFrame& frame) { return frames.make(frame); };
+    BURIN_TRY_DO(session::run_headless(*session, clock, run));
+    frames.refuse_the_rest();
+    BURIN_TRY(figures, stages.outcome());
+    figures.interrupted = activity->run().phase() == TrainingRun::Phase::in_stage;
+    figures.left = wanted - figures.stages;
     return figures;
 }
 

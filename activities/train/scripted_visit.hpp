@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A participant's visit in simulated time, without a person and a window: a script says what the operator says and
-// where the hand means to be. It goes through the same stages, rules, ticks and files as a live one
-// (training_run.hpp), so that a study's whole thread can be tried and tested.
+// where the hand means to be. It is the session of a live visit with the script as its hand, which nobody sees, so that
+// a study's whole thread can be tried and tested. What is said acts with the next frame's first tick.
 //
 // The script, a line each, '#' begins a remark; times in seconds, rising:
 //   burin-study-input 1

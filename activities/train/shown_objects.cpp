@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "activities/train/shown_objects.hpp"
 
+#include <algorithm>
+#include <span>
+
+#include "haptics/tick_record.hpp"
+
 namespace burin::activities {
 namespace {
 
@@ -15,22 +20,20 @@ bool is_in(const study::CapBox& cap, const StageMoment& moment) {
 
 }  // namespace
 
-StageMoment moment_of(const study::FeltWorld& world, const study::StageSession& session,
-                      const haptics::TickRecord& record) {
+bool touches_wall(const haptics::TickRecord& record) {
+    const std::span points(record.contact.points.data(), record.contact.point_count);
+    return std::ranges::any_of(points, [](const haptics::PointRecord& point) {
+        return point.active_triangle != haptics::kNoTriangle && point.object == study::kTubeObject;
+    });
+}
+
+StageMoment moment_of(const study::FeltWorld& world, const study::StageSession& session, bool touches_wall) {
     StageMoment moment;
     moment.points_m = session.touch().points_m(session.sample());
     moment.orientation =
         session.touch().parameters().workspace.object_from_device.orientation * session.sample().orientation_device;
     moment.time_s = session.time_s();
-    for (std::uint32_t i = 0; i < record.contact.point_count; ++i) {
-        const haptics::PointRecord& point = record.contact.points[i];
-        if (point.active_triangle == haptics::kNoTriangle) continue;
-        // Another loop numbers triangles in its own surfaces, and objects as the world's file does.
-        moment.touches_wall =
-            moment.touches_wall ||
-            (session.follows() ? point.object == study::kTubeObject
-                               : world.surface().material(point.active_triangle) == study::kTubeMaterial);
-    }
+    moment.touches_wall = touches_wall;
     moment.start_touched = is_in(study::start_cap(world.world()), moment);
     moment.end_touched = is_in(study::end_cap(world.world()), moment);
     return moment;

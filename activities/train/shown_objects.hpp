@@ -16,8 +16,12 @@ struct StageMoment {
     bool touches_wall = false, start_touched = false, end_touched = false;
     double time_s = 0.0;  // since the stage's beginning
 };
+// The moment of the session's last tick. touches_wall: in it.
 [[nodiscard]] StageMoment moment_of(const study::FeltWorld& world, const study::StageSession& session,
-                                    const haptics::TickRecord& record);
+                                    bool touches_wall);
+
+// Returns whether a point touches the tube in a tick, whose objects have the study's own numbers.
+[[nodiscard]] bool touches_wall(const haptics::TickRecord& record);
 
 // Says how an object of study/felt/felt_world.hpp looks.
 struct ShownObject {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A stage that a simulated learner goes through with a simulated wand in simulated time: each tick moves the wand by a
-// period, reads it, runs the haptic tick on the study's world, writes the force back and asks the learner where its
-// hand goes next.
+// A stage that a simulated learner goes through: a session that nobody sees, in simulated time, with the activity of a
+// live visit. The learner is the hand of its simulated wand. It looks at each frame, as a person does, and says where
+// its hand goes until the next, millisecond by millisecond; what the operator says comes with a frame as well.
 //
 // A trial in which nothing happens for two minutes is stopped: who cannot touch a cap would wait without an end.
 // Pages have no world and no wand: only their time passes. Every run of the same inputs gives the same bits, on any
@@ -19,20 +19,22 @@ struct TickRecord;  // haptics/tick_record.hpp
 
 namespace burin::activities {
 
-// All must outlive the call; the world is null for a page.
+// All must outlive the call.
 struct StageInputs {
     const study::Protocol& protocol;
-    const study::Stage& stage;
+    study::StagePlace at;
     const study::Group& group;
-    const study::FeltWorld* world = nullptr;
+    const FeltWorlds& worlds;
     const study::Learner& learner;
     const study::LearnerPopulation& population;
 };
 
-// Called after each tick with a world, in order; `act` is what the operator did in it.
+// Called with each tick of a stage with a world, in order; `act` is what the operator did in it.
 using OnStageTick =
     std::function<void(const haptics::TickRecord&, study::OperatorAct act, const study::StageSession& session)>;
 
-[[nodiscard]] EndedStage simulate_stage(const StageInputs& in, study::Random& random, const OnStageTick& on_tick);
+// Fails where the session does not open, or the stage does not end.
+[[nodiscard]] Result<EndedStage> simulate_stage(const StageInputs& in, study::Random& random,
+                                                const OnStageTick& on_tick);
 
 }  // namespace burin::activities

@@ -142,9 +142,8 @@ private:
         const study::Protocol& protocol = study_.protocol();
         const auto world = worlds_.find(at.stage->world);
         const auto group = std::ranges::find(protocol.groups, person.group, &study::Group::code);
-        const StageInputs in{protocol, *at.stage,  *group, world != worlds_.end() ? world->second.get() : nullptr,
-                             learner,  population_};
-        const bool has_motion = in.world != nullptr && at.stage->records && options_.records;
+        const StageInputs in{protocol, at, *group, worlds_, learner, population_};
+        const bool has_motion = world != worlds_.end() && at.stage->records && options_.records;
         const auto files = [&] {
             const std::lock_guard lock(mutex_);
             return study_.begin_stage(person.id, at, has_motion, clock_s);
@@ -152,20 +151,22 @@ private:
         if (!files) return std::unexpected(files.error());
         std::unique_ptr<study::StageRecording> recording;
         if (has_motion) {
-            const study::StageTouch touch(protocol, *at.stage, *group, *in.world);
-            auto facts = study::facts_of_stage(study_.facts().protocol_digest, *group, *at.stage, *in.world, touch);
+            const study::StageTouch touch(protocol, *at.stage, *group, *world->second);
+            auto facts =
+                study::facts_of_stage(study_.facts().protocol_digest, *group, *at.stage, *world->second, touch);
             const study::HeldDevice held{study::kLearnersDevice, study::Hand::learner};
             std::ranges::move(study::facts_of_hand(person.id, held), std::back_inserter(facts));
             facts.insert(facts.end(), options_.provenance.begin(), options_.provenance.end());
+            facts.emplace_back(study::kTicksFact, study::kTicksOfSession);
             BURIN_TRY(made, study::StageRecording::create(study_.path() / files->recording, touch, std::move(facts),
                                                           kBlock_ns));
             recording = std::move(made);
         }
-        EndedStage stage = simulate_stage(
-            in, random,
-            [&](const haptics::TickRecord& record, study::OperatorAct act, const study::StageSession& session) {
-                if (recording) recording->take(record, act, session);
-            });
+        BURIN_TRY(stage, simulate_stage(in, random,
+                                        [&](const haptics::TickRecord& record, study::OperatorAct act,
+                                            const study::StageSession& session) {
+                                            if (recording) recording->take(record, act, session);
+                                        }));
         if (recording) {
             BURIN_TRY_DO(recording->close());
         }

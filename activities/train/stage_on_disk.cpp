@@ -91,7 +91,7 @@ Result<void> StageOnDisk::begin(const TrainingRun& run) {
         study::facts_of_stage(study_.facts().protocol_digest, group_, *at_.stage, *run.world(), session->touch());
     std::ranges::move(study::facts_of_hand(participant_, held_), std::back_inserter(facts));
     facts.insert(facts.end(), provenance_.begin(), provenance_.end());
-    if (motion_ == Motion::session_ticks) facts.emplace_back(study::kTicksFact, study::kTicksOfSession);
+    facts.emplace_back(study::kTicksFact, study::kTicksOfSession);
     BURIN_TRY(made, study::StageRecording::create(study_.path() / files_.recording, session->touch(), std::move(facts),
                                                   kVisitBlock_ns));
     recording_ = std::move(made);

@@ -36,8 +36,8 @@ using Provenance = std::vector<std::pair<std::string, std::string>>;
 
 class StageOnDisk {
 public:
-    // Whether the motion is recorded tick by tick, where the protocol has it recorded, and whose ticks they are.
-    enum class Motion { none, ticks, session_ticks };
+    // Whether the motion is recorded tick by tick, where the protocol has it recorded.
+    enum class Motion { none, ticks };
 
     // Study and group must outlive it. provenance: facts of the program and its settings for each recording.
     StageOnDisk(study::StudyFolder& study, std::string participant, const study::Group& group, Motion motion,
@@ -56,6 +56,8 @@ public:
     [[nodiscard]] Result<void> end(const EndedStage& ended);
     // Keeps what is recorded, also of a stage that did not come to its end.
     [[nodiscard]] Result<void> close();
+    // Returns the stage that was begun last.
+    [[nodiscard]] const study::StagePlace& at() const { return at_; }
 
 private:
     study::StudyFolder& study_;

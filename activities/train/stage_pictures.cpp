@@ -60,7 +60,7 @@ Result<StageMoments> moments_of(const study::StudyFolder& study, const study::St
     BURIN_TRY_DO(study::replay_stage(study.path() / visit.recording, study.protocol(), study.facts().protocol_digest,
                                      world, [&](const study::StageSession& session, const haptics::TickRecord& record) {
                                          if (ticks++ % kLookEvery != 0) return;
-                                         moments.all.push_back(moment_of(world, session, record));
+                                         moments.all.push_back(moment_of(world, session, touches_wall(record)));
                                          moments.running.push_back(session.state().phase == study::StagePhase::running);
                                      }));
     return moments;

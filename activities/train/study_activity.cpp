@@ -143,7 +143,7 @@ void StudyActivity::follow(const haptics::TickRecord& tick, session::ActivityOrd
     if (std::exchange(starts_with_first_tick_, false)) begin_stage(orders);
     if (run_.session() == nullptr || run_.phase() != TrainingRun::Phase::in_stage) return;
     const std::size_t known = run_.session()->events().size();
-    const haptics::TickRecord own = in_stage_world(tick);
+    const haptics::TickRecord& own = in_stage_world(tick);
     const study::OperatorAct act = run_.follow(own);
     if (keeper_.tick) keeper_.tick({&own, act, run_.session()});
     note_trials(orders);
@@ -153,12 +153,24 @@ void StudyActivity::follow(const haptics::TickRecord& tick, session::ActivityOrd
     end_stage(orders);
 }
 
-haptics::TickRecord StudyActivity::in_stage_world(haptics::TickRecord tick) const {
+const haptics::TickRecord& StudyActivity::in_stage_world(const haptics::TickRecord& tick) {
+    if (visit_.has_numbers_of(*world_)) return tick;
+    renumbered_ = tick;
     for (std::uint32_t i = 0; i < tick.contact.point_count; ++i) {
-        std::uint32_t& object = tick.contact.points[i].object;
+        std::uint32_t& object = renumbered_.contact.points[i].object;
         object = static_cast<std::uint32_t>(visit_.number_in(*world_, object));
     }
-    return tick;
+    return renumbered_;
+}
+
+double StudyActivity::known_m() const {
+    Box all;
+    for (const study::FeltWorld* world : visit_.worlds()) {
+        all.include(world->bounds().lo);
+        all.include(world->bounds().hi);
+    }
+    constexpr double kBeyond_m = 1.0;  // farther than a wand reaches
+    return device_.placed ? kBeyond_m + glm::length(all.extent()) : 0.0;
 }
 
 void StudyActivity::note_trials(session::ActivityOrders& orders) {
@@ -261,6 +273,8 @@ void StudyActivity::adjust(session::PartOfHand of, haptics::TickParameters& para
     parameters.limits.max_force_N = std::min(parameters.limits.max_force_N, protocol_.force_limit_N);
     if (of != session::PartOfHand{}) return;  // not the participant's
     parameters.placement = placement_;
+    if (device_.wand && device_.placed)
+        parameters.workspace.object_from_device = study::world_from_wand(*device_.wand, world_->bounds());
     const study::StageSession* session = run_.session();
     if (session == nullptr || run_.phase() != TrainingRun::Phase::in_stage || !session->touch().leads()) return;
     parameters.curve = session->touch().parameters().curve;
@@ -272,9 +286,9 @@ session::ActivityPanel StudyActivity::panel() const {
     Panel panel{.title = "Study",
                 .aside = device_.participant.empty() ? group_.code : device_.participant + ", " + group_.code,
                 .page = shown_.page,
-                .governs = true};
+                .governs = governs()};
     if (!jig_off_.empty()) panel.widgets.push_back(Panel::Row{"in the jig", jig_row_});
-    for (const PanelRow& row : shown_.rows) panel.widgets.push_back(Panel::Row{row.name, row.value});
+    for (const PanelRow& row : run_.rows()) panel.widgets.push_back(Panel::Row{row.name, row.value});
     const bool in_stage = run_.phase() == TrainingRun::Phase::in_stage;
     const bool calibrated = jig_off_.empty(), paused = run_.paused();
     const bool trial = in_stage && run_.place()->stage->kind == study::StageKind::trial;

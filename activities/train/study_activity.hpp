@@ -2,10 +2,10 @@
 // A participant's visit in a live session: the stages of training_run.hpp as the session's activity. The operator's
 // words are its acts (`do start`), the page and the operator's rows its section of the panel.
 //
-// Data flow: ticks of the session's own loop -> TrainingRun::follow -> what is seen and felt of the world's objects as
+// Data flow: ticks of the session -> TrainingRun::follow -> what is seen and felt of the world's objects as
 // edits, guidance, force limit and the place of the proxies as tick parameters, and each stage's beginning, notes and
 // end to whoever keeps them. Where a frame finds that the start cap was touched, the next tick begins with both proxies
-// on the tube's axis there, as a simulated stage's next tick does.
+// on the tube's axis there.
 // The session's scene must be scene(): the worlds of all stages of the visit (visit_scene.hpp), of which those of the
 // stage under way are seen and felt. Where several worlds are there, each tick is followed with the numbers that the
 // stage's world gives its objects (study/felt/felt_world.hpp), as its recording has them.
@@ -24,6 +24,7 @@
 #include "activities/train/training_run.hpp"
 #include "activities/train/visit_scene.hpp"
 #include "session/activity/activity.hpp"
+#include "session/activity/brought_hand.hpp"
 #include "study/felt/trial_marks.hpp"
 
 namespace burin::activities {
@@ -41,6 +42,11 @@ struct StageKeeper {
 struct StudyDevice {
     std::optional<devices::WandDescription> wand = {};  // none: there is no jig
     std::string participant = {};                       // whose hand it is, for the operator; empty: nobody's
+    // The wand stands in each stage's world as study::world_from_wand() has it, and all of the scene is known around
+    // it; else as the session places a handle, and as far as it moves: so were visits of before December 2026.
+    bool placed = false;
+    // Leads the wand, or has its samples, in a person's place; none: whoever holds the device.
+    std::optional<session::BroughtHand> hand = {};
 };
 
 class StudyActivity final : public session::Activity {
@@ -58,13 +64,21 @@ public:
     [[nodiscard]] Result<void> act(std::span<const std::string> words, session::ActivityOrders& orders) override;
     void step(const session::ActivityView& view, session::ActivityOrders& orders) override;
     [[nodiscard]] bool is_running() const override { return run_.phase() == TrainingRun::Phase::in_stage; }
+    [[nodiscard]] const session::BroughtHand* brought_hand() const override {
+        return device_.hand ? &*device_.hand : nullptr;
+    }
+    // All of the scene: points that hang on the wall elsewhere than the hand are within what is known.
+    [[nodiscard]] double known_m() const override;
     void adjust(session::PartOfHand of, haptics::TickParameters& parameters) const override;
     // The wand's two points, top red and bottom green, over what the session draws of it; no wand where none is seen.
     void stage(picture::Picture& scene, std::size_t screen) const override;
     [[nodiscard]] session::ActivityPanel panel() const override;
+    [[nodiscard]] bool governs() const override { return true; }
     [[nodiscard]] Result<void> finish() override;
 
     [[nodiscard]] const TrainingRun& run() const { return run_; }
+    // Returns what is to be shown since the last step, without the events, which the keeper has been given.
+    [[nodiscard]] const TrainingShown& shown() const { return shown_; }
     [[nodiscard]] std::size_t stages_ended() const { return ended_; }
 
 private:
@@ -79,7 +93,7 @@ private:
     void open_world(session::ActivityOrders& orders);
     void press(bool pressed, session::ActivityOrders& orders);
     void note_trials(session::ActivityOrders& orders);
-    [[nodiscard]] haptics::TickRecord in_stage_world(haptics::TickRecord tick) const;
+    [[nodiscard]] const haptics::TickRecord& in_stage_world(const haptics::TickRecord& tick);
     void end_stage(session::ActivityOrders& orders);
     void tell(const Result<void>& done, session::ActivityOrders& orders);
 
@@ -98,6 +112,7 @@ private:
     std::optional<bool> tube_pressed_;  // as last ordered
     Nanoseconds now_ns_ = 0;            // of the last tick
     haptics::ProxyPlacement placement_;
+    haptics::TickRecord renumbered_;       // the last tick of another world than the first
     Pose reads_device_;                    // where the wand read to be in the last step
     bool starts_with_first_tick_ = false;  // it was started before there was one
     std::string jig_off_;                  // by how much the wand was off in its jig; empty: it was not

@@ -157,20 +157,12 @@ void TrainingRun::note_stage_events(Nanoseconds now_ns) {
     if (done) phase_ = Phase::ended;
 }
 
-TrainingRun::Ticked TrainingRun::tick(const devices::DeviceSample& sample, Nanoseconds now_ns) {
-    if (phase_ != Phase::in_stage || !session_) return {};
-    const OperatorAct act = next_act();
-    const haptics::TickRecord& record = session_->take(sample, now_ns, act);
-    last_ = record;
-    note_stage_events(now_ns);
-    return {&record, act, &*session_};
-}
-
 OperatorAct TrainingRun::follow(const haptics::TickRecord& record) {
     if (phase_ != Phase::in_stage || !session_) return OperatorAct::none;
     const OperatorAct act = next_act();
     session_->follow(record, act);
-    last_ = record;
+    last_ = LastTick{touches_wall(record), record.sample.fault != devices::DeviceFault::none,
+                     glm::length(record.gate.given.force_device_N)};
     note_stage_events(record.time_ns);
     return act;
 }
@@ -187,13 +179,12 @@ TrainingShown TrainingRun::frame(Nanoseconds now_ns) {
     if (phase_ == Phase::in_stage && !session_) take_page_on(now_ns);
     TrainingShown shown;
     shown.events = std::exchange(said_, {});
-    shown.rows = rows();
     const study::StagePlace* at = place();
     if (at == nullptr || phase_ != Phase::in_stage) return shown;
     shown.page = at->stage->page_text;
     if (!session_) return shown;
     shown.wand_seen = at->stage->sees_wand;
-    if (last_) shown.moment = moment_of(*world_, *session_, *last_);
+    if (last_) shown.moment = moment_of(*world_, *session_, last_->touches_wall);
     shown.objects = shown_objects(*world_, *at->stage, group_, shown.moment.value_or(StageMoment{}));
     return shown;
 }
@@ -234,15 +225,14 @@ std::vector<PanelRow> TrainingRun::rows() const {
     const study::NearestOnLine nearest = study::nearest_on(world_->world().spine_m, 0.5 * (points[0] + points[1]));
     rows.push_back(
         {"path", formatted("%.0f mm along, %.0f mm off the axis", 1e3 * nearest.along_m, 1e3 * nearest.distance_m)});
-    rows.push_back({"force", formatted("%.2f N, largest %.2f N", glm::length(last_->gate.given.force_device_N),
-                                       forces.largest_N)});
+    rows.push_back({"force", formatted("%.2f N, largest %.2f N", last_->force_N, forces.largest_N)});
     if (trial && state.phase == study::StagePhase::waiting) {
         const study::CapBox cap = study::start_cap(world_->world());
         const Vec3 middle_m = cap.centre_m + 0.5 * cap.depth_m * cap.z;
         rows.push_back(
             {"start cap", formatted("%.0f mm away", 1e3 * glm::distance(middle_m, 0.5 * (points[0] + points[1])))});
     }
-    const StageMoment moment = moment_of(*world_, *session_, *last_);
+    const StageMoment moment = moment_of(*world_, *session_, last_->touches_wall);
     rows.push_back({"caps", moment.start_touched ? "in the start cap"
                             : moment.end_touched ? "in the end cap"
                                                  : "in none"});
@@ -251,7 +241,7 @@ std::vector<PanelRow> TrainingRun::rows() const {
                                                                    : 100.0 * static_cast<double>(forces.limited_ticks) /
                                                                          static_cast<double>(forces.ticks))});
     rows.push_back({"missed ticks", formatted("%llu", static_cast<unsigned long long>(forces.late_ticks))});
-    if (last_->sample.fault != devices::DeviceFault::none) rows.push_back({"device", "fault: no force is given"});
+    if (last_->fault) rows.push_back({"device", "fault: no force is given"});
     return rows;
 }
 

@@ -4,8 +4,8 @@
 //
 //   between --start--> in a stage --its end, or next, stop--> ended --take_end()--> between, or finished
 //
-// Data flow, once a frame: ticks since the frame before (run here by tick(), or by a loop of their own: follow()) and
-// the operator's commands -> study::step of each -> frame(): the objects' looks, tick parameters, page, rows, events.
+// Data flow, once a frame: the session's ticks since the frame before and the operator's commands -> study::step of
+// each -> frame(): the objects' looks, tick parameters, page, rows, events.
 // Commands act with the next tick, so that a recorded motion gives the same stage again.
 // No clock, no file, no window; one thread; allocates as the attempt grows. Times are of any clock that only goes on.
 #pragma once
@@ -50,7 +50,6 @@ struct TrainingShown {
     std::vector<ShownObject> objects;   // empty where there is no world
     std::optional<StageMoment> moment;  // of the last tick
     bool wand_seen = false;
-    std::vector<PanelRow> rows;    // for the operator
     std::vector<RunEvent> events;  // since the frame before
 };
 
@@ -75,18 +74,20 @@ public:
     // Returns whether the stage under way is paused, or will be with the next tick.
     [[nodiscard]] bool paused() const;
 
+    // A tick that a stage with a world has taken, for whoever keeps it.
     struct Ticked {
         const haptics::TickRecord* record = nullptr;  // until the next tick
         study::OperatorAct act = study::OperatorAct::none;
         const study::StageSession* session = nullptr;  // as the tick left it; until the stage is taken
     };
-    // Runs a tick; nothing where no stage with a world is under way.
-    Ticked tick(const devices::DeviceSample& sample, Nanoseconds now_ns);
-    // Takes a tick that a loop of its own has run.
+    // Takes a tick of the session; it counts for nothing where no stage with a world is under way. Returns what the
+    // operator did with it.
     study::OperatorAct follow(const haptics::TickRecord& record);
 
     // Takes the time of pages on, and returns what is to be shown now.
     [[nodiscard]] TrainingShown frame(Nanoseconds now_ns);
+    // Returns the lines of the operator's panel.
+    [[nodiscard]] std::vector<PanelRow> rows() const;
 
     // Once a stage has ended: what it gave; then the next one waits.
     [[nodiscard]] EndedStage take_end();
@@ -99,7 +100,6 @@ private:
     void note_stage_events(Nanoseconds now_ns);
     void take_page_on(Nanoseconds now_ns);
     void say(Nanoseconds now_ns, std::string name, std::string value);
-    [[nodiscard]] std::vector<PanelRow> rows() const;
 
     const study::Protocol& protocol_;
     const study::Group& group_;
@@ -117,7 +117,12 @@ private:
     Nanoseconds begun_ns_ = 0;
     double page_time_s_ = 0.0;
     std::size_t events_told_ = 0;
-    std::optional<haptics::TickRecord> last_;
+    // What the panel says of the last tick.
+    struct LastTick {
+        bool touches_wall = false, fault = false;
+        double force_N = 0.0;
+    };
+    std::optional<LastTick> last_;
     std::deque<study::OperatorAct> acts_;
     std::vector<RunEvent> said_;
 };

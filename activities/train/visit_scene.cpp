@@ -43,6 +43,9 @@ VisitScene::VisitScene(const study::Protocol& protocol, const FeltWorlds& worlds
         }
     }
     scene_ = std::move(scene);
+    const study::FeltWorld& first = *worlds_.front();
+    const auto is_same = [&](scene::ObjectId id) { return object(first, id).id == id; };
+    if (std::ranges::all_of(first.objects(), is_same)) as_numbered_ = &first;
 }
 
 const scene::SceneObject& VisitScene::object(const study::FeltWorld& world, scene::ObjectId id) const {

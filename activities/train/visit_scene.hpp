@@ -30,10 +30,13 @@ public:
     [[nodiscard]] const scene::SceneObject& object(const study::FeltWorld& world, scene::ObjectId id) const;
     // Returns the number that an object of the scene has in this world; 0: it is none of this world's.
     [[nodiscard]] scene::ObjectId number_in(const study::FeltWorld& world, scene::ObjectId of_scene) const;
+    // Returns whether the scene's numbers of all objects of this world are the world's own.
+    [[nodiscard]] bool has_numbers_of(const study::FeltWorld& world) const { return &world == as_numbered_; }
 
 private:
     std::vector<const study::FeltWorld*> worlds_;
     std::shared_ptr<const scene::World> scene_;
+    const study::FeltWorld* as_numbered_ = nullptr;  // has its own numbers in the scene; null: none has
     std::map<std::pair<const study::FeltWorld*, scene::ObjectId>, std::size_t> places_;  // index in the scene
 };
 

@@ -31,12 +31,13 @@ Result<devices::WandDescription> wand_as_recorded(const session::RecordedFact& f
 
 Exploration::Exploration(const ExplorationSettings& settings, session::BroughtHand hand, FeltBy felt_by)
     : settings_(settings), hand_(std::move(hand)), felt_by_(std::move(felt_by)) {
-    hand_.placed.scene_from_device = settings.scene_from_device;
-    hand_.placed.begins_scene_m = settings.start_scene_m;
-    hand_.placed.reach_m = settings.reach_m;
+    session::PlacedHand& placed = hand_.placed.emplace();
+    placed.scene_from_device = settings.scene_from_device;
+    placed.begins_scene_m = settings.start_scene_m;
+    placed.reach_m = settings.reach_m;
     if (!hand_.leads) return;
-    const devices::HandTarget start = hand_.leads->target(0.0);
-    hand_.placed.rest_device = {start.position_device_m, start.orientation_device};
+    const devices::HandTarget start = devices::target_of(*hand_.leads, 0.0);
+    placed.rest_device = {start.position_device_m, start.orientation_device};
 }
 
 std::vector<std::pair<std::string, std::string>> Exploration::facts() const {

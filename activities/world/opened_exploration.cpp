@@ -43,7 +43,8 @@ Result<std::unique_ptr<OpenedExploration>> open_exploration(const ExploredWorld&
 
 Result<void> OpenedExploration::run(double lasts_s, std::vector<std::pair<std::string, std::string>> facts) {
     const auto ended = [this] { return activity->outcome(); };
-    return session::run_headless(*session, clock, {nanoseconds(lasts_s), std::move(facts), ended});
+    return session::run_headless(*session, clock,
+                                 {.lasts_ns = nanoseconds(lasts_s), .facts = std::move(facts), .after_frame = ended});
 }
 
 }  // namespace burin::activities

@@ -93,16 +93,16 @@ Result<Json> whole_study(const StudyBench& options, const std::string& protocol,
 // Stages of the first group on one thread, without any file.
 Result<Json> ticks_alone(const study::Protocol& protocol, std::uint64_t seed) {
     Json rows = Json::array();
-    for (const study::Stage& stage : protocol.stages) {
-        const study::StudyWorld* world = protocol.world(stage.world);
-        if (world == nullptr) continue;
-        BURIN_TRY(felt, study::FeltWorld::create(*world));
+    BURIN_TRY(worlds, activities::felt_worlds(protocol));
+    for (const study::StagePlace& at : study::places_of(protocol)) {
+        const study::Stage& stage = *at.stage;
+        if (!worlds.contains(stage.world)) continue;
         study::Random random(seed);
         const study::LearnerPopulation population;
         const study::Learner learner = study::draw_learner(population, false, random);
         const Stopwatch run;
-        const activities::EndedStage went = activities::simulate_stage(
-            {protocol, stage, protocol.groups.front(), felt.get(), learner, population}, random, {});
+        BURIN_TRY(went, activities::simulate_stage({protocol, at, protocol.groups.front(), worlds, learner, population},
+                                                   random, {}));
         const double took_s = run.seconds(), processor_s = run.processor_s();
         rows.push_back({{"stage", stage.name},
                         {"ticks", went.ticks},

@@ -18,7 +18,7 @@ void tell_replays(const study::FolderReplay& replays) {
     if (replays.interrupted > 0) std::printf("; %zu of them end where they were interrupted", replays.interrupted);
     if (replays.of_session > 0)
         std::printf(
-            "; %zu of them are of a live session: their stages, trials and figures were computed again from the ticks "
+            "; %zu of them are of a session: their stages, trials and figures were computed again from the ticks "
             "as stored",
             replays.of_session);
     if (replays.without > 0) std::printf("; %zu were erased or hold nothing yet", replays.without);

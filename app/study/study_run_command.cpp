@@ -113,11 +113,11 @@ Result<void> take_learners(study::StudyFolder& study, const StudyRunOptions& opt
 // Prints a line of the operator's panel whenever another stage or phase begins.
 class OperatorLog {
 public:
-    void at(double time_s, const activities::TrainingShown& shown) {
+    void at(double time_s, const activities::TrainingShown& shown, const activities::TrainingRun& run) {
         for (const activities::RunEvent& event : shown.events)
             std::printf("%9.3f s  %s: %s\n", time_s, event.name.c_str(), event.value.c_str());
         std::string now, away;
-        for (const activities::PanelRow& row : shown.rows)
+        for (const activities::PanelRow& row : run.rows())
             if (row.name == "stage" || row.name == "now")
                 now += (now.empty() ? "" : "; ") + row.value;
             else if (row.name == "start cap")
@@ -156,8 +156,8 @@ Result<void> take_participant(study::StudyFolder& study, const StudyRunOptions& 
     visit.leave = {.resumes_late = options.resume, .any_delay = options.any_delay};
     OperatorLog log;
     visit.on_frame = [&](double time_s, const activities::TrainingShown& shown,
-                         const activities::TrainingRun&) -> Result<void> {
-        log.at(time_s, shown);
+                         const activities::TrainingRun& run) -> Result<void> {
+        log.at(time_s, shown, run);
         return {};
     };
     visit.tell = [](double time_s, const std::string& line) { std::printf("%9.3f s  %s\n", time_s, line.c_str()); };

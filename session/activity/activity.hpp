@@ -123,6 +123,9 @@ public:
     // Returns what it brings into the scene besides, such as a body that gives: a part that is updated with the others,
     // on the scene's thread, as long as the session runs. Asked once, before the first update. Null: nothing.
     [[nodiscard]] virtual scene::ScenePart* scene_part() { return nullptr; }
+    // Returns how far around each hand all of the scene is known to the ticks, where the scene is small; 0: as far as a
+    // hand moves until the next update. Asked once, when the session begins.
+    [[nodiscard]] virtual double known_m() const { return 0.0; }
     // Returns how the hand of a glove is led by a desk, where its scene asks for something of its own; nothing: over
     // all that is seen, with the palm down. Asked once, when the session begins.
     [[nodiscard]] virtual std::optional<LedHand> led_hand() const { return std::nullopt; }
@@ -134,6 +137,8 @@ public:
     // Changes what a screen shows.
     virtual void stage(picture::Picture& /*scene*/, std::size_t /*screen*/) const {}
     [[nodiscard]] virtual ActivityPanel panel() const = 0;
+    // Returns ActivityPanel::governs of its panel; asked in each step.
+    [[nodiscard]] virtual bool governs() const { return panel().governs; }
     // Called when the session has ended and no tick comes any more: writes what it leaves.
     [[nodiscard]] virtual Result<void> finish() { return {}; }
 };

@@ -2,7 +2,10 @@
 #include "session/drive/headless_session.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -27,21 +30,28 @@ public:
     }
 
     [[nodiscard]] std::optional<Nanoseconds> next() override {
-        if (session_.state().quit || (next_ns_ > 0 && time_ns_ >= run_.lasts_ns)) return std::nullopt;
-        time_ns_ = std::exchange(next_ns_, next_ns_ + scene::SceneService::kHandsMove_ns);
-        if (run_.ends_on_time) time_ns_ = std::min(time_ns_, run_.lasts_ns);
+        const Nanoseconds next_ns = frames_ * kNanosecondsPerSecond / run_.frames_a_second;
+        if (session_.state().quit || !has_next(next_ns)) return std::nullopt;
+        ++frames_;
+        time_ns_ = run_.ends_on_time ? std::min(next_ns, run_.lasts_ns) : next_ns;
         return session_.start_ns() + time_ns_;
     }
 
     [[nodiscard]] Result<void> make(Executor& executor) override {
         const std::vector<haptics::ToolState> tools = executor.tools();
         static_cast<void>(input_.begin_frame(time_ns_, time_ns_));
-        session_.begin_step(time_ns_, tools);
-        Leader nobody;
-        session_.step({}, nobody, [&](Executor::Order order) { executor.order(std::move(order)); });
-        BURIN_TRY(taken, executor.take_updates());
-        static_cast<void>(session_.take_news(taken.collected));
-        recorder_.frame(tools, taken.updates, {{}, {}, {}});
+        std::vector<scene::SceneUpdate> updates;
+        const auto step = [&](std::span<const InputEvent> inputs) -> Result<void> {
+            session_.begin_step(time_ns_, tools);
+            session_.step({.events = inputs}, nobody_,
+                          [&](Executor::Order order) { executor.order(std::move(order)); });
+            BURIN_TRY(taken, executor.take_updates());
+            static_cast<void>(session_.take_news(taken.collected));
+            std::ranges::move(taken.updates, std::back_inserter(updates));
+            return {};
+        };
+        BURIN_TRY_DO(run_.make_frame ? run_.make_frame({time_ns_, tools, step}) : step({}));
+        recorder_.frame(tools, updates, {{}, {}, {}});
         BURIN_TRY_DO(take_records());
         return run_.after_frame ? run_.after_frame() : Result<void>{};
     }
@@ -57,6 +67,9 @@ public:
     }
 
 private:
+    [[nodiscard]] bool has_next(Nanoseconds next_ns) const {
+        return run_.plan ? run_.plan(next_ns) : next_ns == 0 || time_ns_ < run_.lasts_ns;
+    }
     // No clock holds simulated time back: the rings would overflow while the recorder writes.
     [[nodiscard]] Result<void> take_records() {
         if (const auto file = input_.recording()) file->take_ticks();
@@ -77,11 +90,16 @@ private:
     const HeadlessRun& run_;
     InputSource input_;
     ThreadRecorder recorder_;
-    Nanoseconds time_ns_ = 0, next_ns_ = 0;  // of the present frame and the next one, in session time
+    Leader nobody_;
+    std::int64_t frames_ = 0;
+    Nanoseconds time_ns_ = 0;  // of the present frame, in session time
 };
 
 Result<InputSource> input_of(Session& session, const HeadlessRun& run) {
-    if (session.options().record.path.empty()) return InputSource::live();
+    const std::string& path = session.options().record.path;
+    if (path.empty()) return InputSource::live();
+    if (run.make_frame)
+        return fail(path, "would lack the input that this session's own program gives it", "leave the recording out");
     SessionFacts facts = run.facts;
     facts.emplace_back(kViewerFact, kNoViewer);
     BURIN_TRY(writer, create_recording(session.options(), facts, session, run.on_tick));

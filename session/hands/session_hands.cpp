@@ -8,6 +8,7 @@
 #include "base/try.hpp"
 #include "devices/hand/steered_hand.hpp"
 #include "devices/haptic/opened_device.hpp"
+#include "devices/haptic/recorded_device.hpp"
 #include "devices/haptic/simulated_wand.hpp"
 #include "devices/registry/device_registry.hpp"
 #include "devices/registry/haptic_host.hpp"
@@ -50,13 +51,13 @@ struct SessionHands::Hand {
 };
 
 struct SessionHands::Part {
-    Part(PartOfHand of_hand, std::size_t records) : of(of_hand), channels(haptics::HapticChannels::kTicks, records) {}
+    Part(PartOfHand of_hand, const Rings& rings) : of(of_hand), channels(rings.ticks, rings.records) {}
     PartOfHand of;
     haptics::HapticChannels channels;
     std::uint64_t parameter_sequence = 0;
 };
 
-SessionHands::SessionHands(std::size_t records, double pace) : records_(records), pace_(pace) {}
+SessionHands::SessionHands(const Rings& rings, double pace) : rings_(rings), pace_(pace) {}
 
 SessionHands::~SessionHands() = default;
 
@@ -115,10 +116,12 @@ Result<void> SessionHands::open_one(const HandToOpen& wanted, Clock& clock, bool
     hand->told.orientation_device = rest.orientation_device;
     auto opened = open_device(wanted, {clock, leading(wanted, std::move(steered)), stands_in, &session_recordings()});
     if (!opened) return std::unexpected(of_hand(wanted.name, opened.error()));
-    hand->device = std::move(*opened);
+    const bool is_read = wanted.brought == nullptr || !wanted.brought->samples;
+    hand->device = is_read ? std::move(*opened)
+                           : devices::recorded_device(*wanted.brought->samples, {}, std::move(*opened), clock);
     hand->given = wanted.device;
     for (std::size_t i = 0; i < hand->device.parts.size(); ++i)
-        parts_.push_back(std::make_unique<Part>(PartOfHand{hands_.size(), i}, records_));
+        parts_.push_back(std::make_unique<Part>(PartOfHand{hands_.size(), i}, rings_));
     hands_.push_back(std::move(hand));
     return {};
 }

@@ -54,8 +54,12 @@ using scene::PartOfHand;
 
 class SessionHands {
 public:
-    // records: ticks that the recording's ring of each part holds. pace: of the machine (haptics::WorkSettings).
-    SessionHands(std::size_t records, double pace);
+    // Ticks that the rings of each part hold, for the scene and for the recording.
+    struct Rings {
+        std::size_t ticks, records;
+    };
+    // pace: of the machine (haptics::WorkSettings).
+    SessionHands(const Rings& rings, double pace);
     ~SessionHands();
     SessionHands(const SessionHands&) = delete;
     SessionHands& operator=(const SessionHands&) = delete;
@@ -123,7 +127,7 @@ private:
     struct Part;  // its channels, and whose it is
     [[nodiscard]] Result<void> open_one(const HandToOpen& wanted, Clock& clock, bool stands_in);
 
-    std::size_t records_;
+    Rings rings_;
     double pace_;
     std::vector<std::unique_ptr<Hand>> hands_;
     std::vector<std::unique_ptr<Part>> parts_;

@@ -33,6 +33,8 @@ public:
     [[nodiscard]] SampleTap* tap() { return tap_ ? &*tap_ : nullptr; }
     // Returns what it brings into the scene; null where that is nothing.
     [[nodiscard]] scene::ScenePart* scene_part() { return activity_ ? activity_->scene_part() : nullptr; }
+    // Returns Activity::known_m(); 0 without an activity.
+    [[nodiscard]] double known_m() const { return activity_ ? activity_->known_m() : 0.0; }
     // Takes, for the next step, what the hands have done, as the scene has read it, and how parts of the scene look.
     void take(HandNews news, std::vector<scene::DrawnShare> drawn) {
         news_.add(std::move(news));
@@ -58,10 +60,7 @@ public:
         return activity_ ? std::optional(activity_->panel()) : std::nullopt;
     }
     // Returns whether what is felt and seen is the activity's alone (governed.hpp).
-    [[nodiscard]] bool governs() const {
-        const auto section = panel();
-        return section && section->governs;
-    }
+    [[nodiscard]] bool governs() const { return activity_ && activity_->governs(); }
     // Returns the trials that it has begun and ended since the last call.
     [[nodiscard]] std::vector<TrialMark> take_trials() { return std::exchange(trials_, {}); }
     // Returns what it wants done on the scene's thread since the last call.

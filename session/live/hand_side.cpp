@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "session/live/hand_side.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/try.hpp"
@@ -9,22 +10,30 @@
 #include "record/record_writer.hpp"
 #include "scene/rendered_material.hpp"
 #include "session/held/held_handle.hpp"
-#include "session/record/session_recording.hpp"
+#include "session/record/session_file.hpp"
 #include "session/state/session_room.hpp"
 
 namespace burin::session {
 namespace {
 
 constexpr std::size_t kTicksToLog = 8192;  // the frame's thread, which reads them for a text log, may stall for so many
+// Ticks that the scene's ring holds in a session whose scene is updated step by step, some ten ticks at a time.
+constexpr std::size_t kTicksUnseen = 64;
+
 // Returns how many ticks the ring of a recording holds.
-std::size_t ring_for(const RecordSetup& record) {
+std::size_t records_of(const RecordSetup& record) {
     if (record.path.empty()) return record.lsl ? kTicksToLog : haptics::HapticChannels::kRecords;
     return is_session_file(record.path) ? burin::record::kRingTicks : kTicksToLog;
 }
 
+SessionHands::Rings rings_of(const SessionSetup& setup) {
+    if (setup.desk.unseen && setup.record.path.empty()) return {kTicksUnseen, 1};
+    return {haptics::HapticChannels::kTicks, records_of(setup.record)};
+}
+
 }  // namespace
 
-HandSide::HandSide(const RecordSetup& record, double pace) : hands_(ring_for(record), pace) {}
+HandSide::HandSide(const SessionSetup& setup, double pace) : hands_(rings_of(setup), pace) {}
 
 Result<void> HandSide::open(const SessionSetup& setup, const SessionState& state, const Room& room,
                             const BroughtHand* brought, Clock& clock) {
@@ -47,8 +56,8 @@ std::vector<haptics::ToolState> HandSide::tools_of_hands() const {
     return first;
 }
 
-std::vector<SceneSide::Beginning> HandSide::beginnings(const SessionState& state, const Room& room,
-                                                       double spacing_m) const {
+std::vector<SceneSide::Beginning> HandSide::beginnings(const SessionState& state, const Room& room, double spacing_m,
+                                                       double known_m) const {
     std::vector<SceneSide::Beginning> all;
     for (std::size_t hand = 0; hand < hands_.hands(); ++hand) {
         // Far enough for the fastest hand to stay inside the known ball until the next update: 1 m/s for 12 ms; the
@@ -56,7 +65,7 @@ std::vector<SceneSide::Beginning> HandSide::beginnings(const SessionState& state
         const double scale = parameters_of(state, room, hand).workspace.object_from_device.scale;
         const double usual_m = (handles_[hand] ? 0.02 : 0.012) * scale + 2.0 * spacing_m;
         const auto& placed = room.hands[hand].placed;
-        const double reach_m = placed ? placed->reach_m : usual_m;
+        const double reach_m = std::max(placed ? placed->reach_m : usual_m, known_m);
         all.push_back({place_at_rest(hand, state, room), reach_m, spread_of(hand, state, room)});
     }
     return all;

@@ -21,16 +21,17 @@ public:
     // Handles by hand (OpenedRoom); null: a stylus, or one that holds a tool.
     using Handles = std::vector<std::shared_ptr<const HeldHandle>>;
 
-    // As SessionHands.
-    HandSide(const RecordSetup& record, double pace);
+    // pace: as SessionHands has it.
+    HandSide(const SessionSetup& setup, double pace);
 
     void use(Handles handles) { handles_ = std::move(handles); }
     // Opens the devices, each with its hand where the state has it. brought: the first hand; null: the session's own.
     [[nodiscard]] Result<void> open(const SessionSetup& setup, const SessionState& state, const Room& room,
                                     const BroughtHand* brought, Clock& clock);
-    // Returns where the hands' tools are before the first tick. spacing_m: of the workpiece's lattice.
+    // Returns where the hands' tools are before the first tick. spacing_m: of the workpiece's lattice; known_m: how far
+    // the activity wants the scene to be known at least.
     [[nodiscard]] std::vector<SceneSide::Beginning> beginnings(const SessionState& state, const Room& room,
-                                                               double spacing_m) const;
+                                                               double spacing_m, double known_m) const;
     // Tells the ticks of all parts what the state says, and what the activity adds.
     void publish_parameters(const SessionState& state, const Room& room, const ActivitySide& activity);
     // Has what is known around each hand reach all points of its handle: the scene has been scaled, or the motion.

@@ -66,9 +66,9 @@ Result<OpenedRoom> open_room(const SessionSetup& options) {
                 room.rest_device = led->rest_device;
             }
         const BroughtHand* const brought = i == 0 && options.activity ? options.activity->brought_hand() : nullptr;
-        if (brought != nullptr) {
+        if (brought != nullptr && brought->placed) {
             room.placed = brought->placed;
-            room.rest_device = brought->placed.rest_device.orientation;
+            room.rest_device = brought->placed->rest_device.orientation;
         }
         if (brought != nullptr && brought->handle) {
             reach_over(room, devices::device_of(*brought->handle).workspace_m);

@@ -59,7 +59,7 @@ Result<std::unique_ptr<WorldSide>> open_world(const SessionSetup& options, Opene
     BURIN_TRY(read, options.scene.given ? Result<scene::World>(*options.scene.given)
                     : opened.world      ? Result<scene::World>(std::move(*std::exchange(opened.world, std::nullopt)))
                                         : read_sound_world(options.scene.world, options.scene.reading));
-    return WorldSide::create(std::move(read));
+    return WorldSide::create(std::move(read), !options.desk.unseen);
 }
 
 void note_world(const WorldSide& world, const SessionSetup& options, Room& room, FoundOut& found) {

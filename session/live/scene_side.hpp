@@ -74,8 +74,8 @@ public:
     // Has a journal begin anew with the workpiece as it is then, before what is in the content, unless a stroke goes
     // on.
     [[nodiscard]] Order journalling(document::Content content, document::DocumentWriter& writer);
-    // Has what is new of the part that an activity has brought noted, as the part of this number in the document, unless
-    // a step of it goes on; is_due is false once it is.
+    // Has what is new of the part that an activity has brought noted, as the part of this number in the document,
+    // unless a step of it goes on; is_due is false once it is.
     [[nodiscard]] Order noting_brought(std::int64_t place, document::History history, document::DocumentWriter& writer,
                                        std::shared_ptr<std::atomic<bool>> is_due);
     [[nodiscard]] Order editing(WorldOrder order);

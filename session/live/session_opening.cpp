@@ -14,7 +14,7 @@ namespace burin::session {
 Session::Session(Clock& clock, const SessionSetup& options, double pace)
     : clock_(clock),
       options_(options),
-      hands_(options.record, pace),
+      hands_(options, pace),
       activity_(options.activity),
       notices_(options),
       work_(options_, scene_, notices_.files(), notices_.log(), [this] { return saved_content(); }) {}
@@ -76,8 +76,8 @@ Result<void> Session::begin(const Place& place) {
     if (!activity_.is_there())
         for (const std::string& more : hands_.more_than_rendered(state_, room_)) notify(more, MessageKind::info);
     BURIN_TRY_DO(scene_.begin(use, options_.carve.undo_memory_MiB << 20,
-                              hands_.beginnings(state_, room_, scene_.spacing_m()), activity_.scene_part(),
-                              activity_.tap(), time_.start_ns));
+                              hands_.beginnings(state_, room_, scene_.spacing_m(), activity_.known_m()),
+                              activity_.scene_part(), activity_.tap(), time_.start_ns));
     if (scene_.carved() != nullptr) scene_.carved()->order(workpiece::MirrorStrokes{state_.mirror});
     work_.begin_history(state_);
     work_.begin_journal(state_);

@@ -27,8 +27,8 @@ Result<scene::World> read_sound_world(const std::string& path, const scene::Worl
     return fail(path, std::to_string(world.error().size()) + " problems", "correct them; burin world check lists them");
 }
 
-Result<std::unique_ptr<WorldSide>> WorldSide::create(scene::World world) {
-    std::unique_ptr<WorldSide> side(new WorldSide(world));
+Result<std::unique_ptr<WorldSide>> WorldSide::create(scene::World world, bool is_shown) {
+    std::unique_ptr<WorldSide> side(new WorldSide(world, is_shown));
     auto objects = std::make_shared<WorldObjects>();
     objects->name = std::move(world.name);
     for (const scene::SceneObject& object : world.objects)

@@ -19,7 +19,8 @@ namespace burin::session {
 
 class WorldSide {
 public:
-    [[nodiscard]] static Result<std::unique_ptr<WorldSide>> create(scene::World world);
+    // is_shown: pictures may be made of it.
+    [[nodiscard]] static Result<std::unique_ptr<WorldSide>> create(scene::World world, bool is_shown = true);
 
     [[nodiscard]] scene::MeshPart& part() { return *part_; }
     [[nodiscard]] const scene::MeshPart& part() const { return *part_; }
@@ -30,7 +31,7 @@ public:
     [[nodiscard]] const DrawnWorld& drawn() const { return drawn_; }
 
 private:
-    explicit WorldSide(const scene::World& world) : drawn_(world.objects) {}
+    WorldSide(const scene::World& world, bool is_shown) : drawn_(world.objects, is_shown) {}
 
     scene::MaterialTable materials_{1};  // the first is a carved workpiece's
     std::unique_ptr<scene::MeshPart> part_;

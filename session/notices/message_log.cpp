@@ -8,10 +8,6 @@
 namespace burin::session {
 namespace {
 
-void print_message(const std::string& message, const Beside& beside) {
-    std::fprintf(stderr, "burin: %s%s%s\n", beside.before.c_str(), message.c_str(), beside.after.c_str());
-}
-
 // Returns when a message goes away by itself; none: it stays.
 std::optional<Nanoseconds> gone_ns(const Message& message) {
     if (message.kind == MessageKind::error) return std::nullopt;
@@ -20,14 +16,18 @@ std::optional<Nanoseconds> gone_ns(const Message& message) {
 
 }  // namespace
 
+void MessageLog::print(const std::string& message, const Beside& beside) const {
+    if (prints_) std::fprintf(stderr, "burin: %s%s%s\n", beside.before.c_str(), message.c_str(), beside.after.c_str());
+}
+
 void MessageLog::notify(const std::string& message, MessageKind kind, const Beside& beside) {
     keep(message, kind);
-    print_message(message, beside);
+    print(message, beside);
 }
 
 void MessageLog::notify_of_event(const std::string& message, MessageKind kind, const Beside& beside) {
     ++changes_;
-    print_message(message, beside);
+    print(message, beside);
     heard_.push_back({message, kind});
 }
 

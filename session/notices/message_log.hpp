@@ -36,6 +36,8 @@ public:
 
     // Has messages from outside go to standard error alone: in simulated time pictures depend on the input alone.
     void hear_nothing_from_outside() { hears_outside_ = false; }
+    // Has nothing written to standard error: whoever runs the session tells of it.
+    void print_nothing() { prints_ = false; }
     void begin_step(Nanoseconds time_ns) { now_ns_ = time_ns; }
     // Logs a message that follows from the input.
     void notify(const std::string& message, MessageKind kind = MessageKind::warning, const Beside& beside = {});
@@ -66,11 +68,12 @@ private:
         MessageKind kind = MessageKind::info;
     };
     void keep(const std::string& message, MessageKind kind);
+    void print(const std::string& message, const Beside& beside) const;
 
     std::vector<Message> all_;
     Nanoseconds now_ns_ = 0;
     std::uint64_t changes_ = 0;
-    bool follows_recording_ = false, hears_outside_ = true;
+    bool follows_recording_ = false, hears_outside_ = true, prints_ = true;
     std::vector<Heard> heard_;  // from outside, not logged yet
 };
 

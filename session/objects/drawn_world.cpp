@@ -26,6 +26,13 @@ std::shared_ptr<const picture::DrawnMesh> mesh_of(const scene::SceneObject& obje
     return picture::drawn_mesh(plain, colours);
 }
 
+Box bounds_of(const geometry::TriangleMesh& mesh) {
+    Box bounds;
+    for (const auto& triangle : mesh.triangles)
+        for (const std::uint32_t corner : triangle) bounds.include(mesh.positions_m[corner]);
+    return bounds;
+}
+
 Pose pose_at_the_beginning(const scene::SceneObject& object) {
     const auto* path = std::get_if<scene::PathMotion>(&object.motion);
     return path == nullptr ? object.pose : scene::composed(object.pose, scene::pose_on(*path, 0.0));
@@ -33,14 +40,14 @@ Pose pose_at_the_beginning(const scene::SceneObject& object) {
 
 }  // namespace
 
-DrawnWorld::DrawnWorld(std::span<const scene::SceneObject> objects) {
+DrawnWorld::DrawnWorld(std::span<const scene::SceneObject> objects, bool is_shown) {
     std::map<std::tuple<const geometry::TriangleMesh*, const scene::CornerColours*, bool>,
              std::shared_ptr<const picture::DrawnMesh>>
         drawn;
     for (const scene::SceneObject& object : objects) {
         const auto drawn_with = [&](const scene::CornerColours* colours) {
             auto& mesh = drawn[{object.mesh.get(), colours, object.both_sides}];
-            if (!mesh) mesh = mesh_of(object, colours);
+            if (!mesh && is_shown) mesh = mesh_of(object, colours);
             return mesh;
         };
         // Both are made ready, so that no frame waits when an object in its file's colours is given another.
@@ -54,7 +61,7 @@ DrawnWorld::DrawnWorld(std::span<const scene::SceneObject> objects) {
                                object.seen,
                                srgb_of(object.colour),
                                object.opacity};
-        const Box bounds = picture::placed_box(mesh->bounds, scene_from_mesh);
+        const Box bounds = picture::placed_box(mesh ? mesh->bounds : bounds_of(*object.mesh), scene_from_mesh);
         if (!object.seen || bounds.empty()) continue;
         bounds_scene_.include(bounds.lo);
         bounds_scene_.include(bounds.hi);
@@ -73,7 +80,7 @@ void DrawnWorld::take(std::span<const scene::ObjectUpdate> updates) {
 std::vector<picture::DrawnObject> DrawnWorld::in_world(const Similarity& world_from_scene) const {
     std::vector<picture::DrawnObject> list;
     for (const auto& [id, object] : objects_) {
-        if (!object.seen) continue;
+        if (!object.seen || !object.mesh) continue;
         const Similarity placed = world_from_scene * object.scene_from_mesh;
         if (object.has_own_colours)
             list.push_back({object.coloured, placed, Vec3(1.0), object.opacity});

@@ -20,8 +20,9 @@ namespace burin::session {
 
 class DrawnWorld {
 public:
-    // The objects as they are at the beginning.
-    explicit DrawnWorld(std::span<const scene::SceneObject> objects);
+    // The objects as they are at the beginning. is_shown: pictures may be made; else no mesh is made ready, and none is
+    // returned.
+    explicit DrawnWorld(std::span<const scene::SceneObject> objects, bool is_shown = true);
 
     // Takes over what has changed.
     void take(std::span<const scene::ObjectUpdate> updates);

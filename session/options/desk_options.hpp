@@ -16,7 +16,10 @@ enum class DetailChoice { automatic, full };
 struct DeskOptions {
     bool live = false;       // explicitly requested; also implied when there is neither a stroke nor an output
     bool offscreen = false;  // no window; needs an input
-    std::string stereo;      // a mode's name; empty: mono in a window
+    // Nobody sees it, in simulated time: no picture is made ready, and no tick is recorded without a file. No option
+    // of the command line.
+    bool unseen = false;
+    std::string stereo;  // a mode's name; empty: mono in a window
     bool swap_eyes = false;
     EdgeComfort edge_comfort = EdgeComfort::automatic;  // on a lone screen
     std::string wall;  // wall file with screens, eyes and tracker; empty: one desktop window

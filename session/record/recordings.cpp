@@ -10,7 +10,7 @@
 #include "devices/registry/device_registry.hpp"
 #include "record/export/table_export.hpp"
 #include "record/motion.hpp"
-#include "session/record/session_recording.hpp"
+#include "session/record/session_file.hpp"
 #include "session/state/session_settings.hpp"
 
 namespace burin::session {

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "record/export/table_export.hpp"
-#include "session/record/session_recording.hpp"
+#include "session/record/session_file.hpp"
 
 namespace burin::session {
 

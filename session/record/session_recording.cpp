@@ -13,14 +13,6 @@
 
 namespace burin::session {
 
-bool is_session_file(const std::string& path) { return std::filesystem::path(path).extension() == ".session"; }
-
-std::vector<record::Word> session_row(const haptics::TickRecord& tick, const record::RowShape& shape) {
-    std::vector<record::Word> row = record::row_of(tick, shape);
-    record::append_touched(tick, shape, row);
-    return row;
-}
-
 Result<std::shared_ptr<SessionRecording>> SessionRecording::create(const std::string& path, RecordingOf session) {
     BURIN_TRY(header, input_log_header(session.settings, path));
     std::shared_ptr<SessionRecording> made(new SessionRecording(path, std::move(session)));

@@ -8,7 +8,7 @@
 
 #include "haptics/tick_record.hpp"
 #include "record/touched_columns.hpp"
-#include "session/record/session_recording.hpp"
+#include "session/record/session_file.hpp"
 
 namespace burin::session {
 namespace {

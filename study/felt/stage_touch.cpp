@@ -9,7 +9,6 @@
 namespace burin::study {
 namespace {
 
-constexpr double kTick_s = 0.001;
 constexpr double kGuidanceReach_m = 0.04;
 constexpr double kGuidanceDamping_s = 0.02;  // of its stiffness: the time in which a led hand comes to rest
 constexpr std::size_t kCurvePoints = 200;
@@ -60,7 +59,6 @@ StageTouch::StageTouch(const Protocol& protocol, const Stage& stage, const Group
     leads_ = purpose == TouchPurpose::stage && stage.kind == StageKind::led_training && group.feels_tube &&
              protocol.guidance_N_per_m > 0.0;
     if (leads_) set_curve();
-    begin_at_start();
 }
 
 void StageTouch::set_walls(const Stage& stage, const Group& group, TouchPurpose purpose) {
@@ -81,10 +79,6 @@ void StageTouch::set_curve() {
     guidance.reach_m = kGuidanceReach_m;
     guidance.max_force_N = protocol_.force_limit_N;
     guidance.holds_orientation = true;  // upright, as the wand is held
-}
-
-void StageTouch::begin_at_start() {
-    haptics::place_proxies(full_.next.tick.probe, world_.world().spine_m.front(), world_.surface().sequence);
 }
 
 // Strength and direction of the guidance from now on.
@@ -108,12 +102,10 @@ void StageTouch::guide_on(Nanoseconds now_ns, const haptics::GuidanceState& stat
     ++parameters_.sequence;
 }
 
-const haptics::TickRecord& StageTouch::tick(const devices::DeviceSample& sample, Nanoseconds now_ns) {
+void StageTouch::lead(Nanoseconds now_ns, const haptics::GuidanceState& state) {
     if (ticks_ == 0) begun_ns_ = guidance_ns_ = now_ns;
-    if (leads_) guide_on(now_ns, full_.next.tick.guidance, kAtEnd_m);
-    full_ = haptics::full_tick(full_.next, sample, world_.surface(), parameters_, device_, now_ns, kTick_s);
-    full_.record.tick = ++ticks_;
-    return full_.record;
+    if (leads_) guide_on(now_ns, state, kAtEnd_m);
+    ++ticks_;
 }
 
 void StageTouch::follow(Nanoseconds now_ns, const devices::DeviceSample& sample) {

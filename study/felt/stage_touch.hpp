@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The touch of a stage: the settings of its ticks and the ticks themselves, one after the other.
+// The touch of a stage: the settings of its ticks, and how they go on.
 //
 // Data flow: protocol, stage and group -> settings (which walls press, how strongly, the force limit, guidance that
-// fades and leads) -> haptics::full_tick on the world's surface. A group that does not feel the tube has a tube of zero
-// stiffness, not one that is switched off: the proxies stay within it, so that deviations are known all the same.
+// fades and leads) -> whoever runs the ticks: a session (follow()), or a recording in a hand's place
+// (study/felt/repeated_stage.hpp). A group that does not feel the tube has a tube of zero stiffness, not one that is
+// switched off: the proxies stay within it, so that deviations are known all the same.
 // Guidance changes once each kGuidanceStep_ns and depends on the ticks before alone, so that a recorded motion gives
 // the same settings again. Where it leads, it leads to the end of the spine, then back to its start, and so on.
 // Frame: a world that lies within the wand's workspace is given in the maker's frame, as any scene of the wand
@@ -12,7 +13,8 @@
 #pragma once
 
 #include "devices/haptic/wand_description.hpp"
-#include "haptics/tick.hpp"
+#include "haptics/forces/guidance.hpp"
+#include "haptics/tick_parameters.hpp"
 #include "study/felt/felt_world.hpp"
 
 namespace burin::study {
@@ -41,13 +43,12 @@ public:
     StageTouch(const StageTouch&) = delete;
     StageTouch& operator=(const StageTouch&) = delete;
 
-    // The record stays until the next tick.
-    const haptics::TickRecord& tick(const devices::DeviceSample& sample, Nanoseconds now_ns);
-    // For a tick that a loop of its own has run with these parameters: guidance goes on as after a tick of this. Where
-    // the attracting point is it takes from where the wand's middle is along the path. sample: as this device reads it.
+    // For a tick that a session has run: guidance goes on. Where the attracting point is it takes from where the wand's
+    // middle is along the path. sample: as this device reads it.
     void follow(Nanoseconds now_ns, const devices::DeviceSample& sample);
-    // Sets both proxies on the axis at the start cap, from where the next tick takes them to the hand.
-    void begin_at_start();
+    // For a tick that is about to be computed with these parameters: guidance goes on from where the ticks before have
+    // left the attracting point.
+    void lead(Nanoseconds now_ns, const haptics::GuidanceState& state);
 
     [[nodiscard]] const haptics::TickParameters& parameters() const { return parameters_; }
     [[nodiscard]] const devices::WandDescription& wand() const { return wand_; }
@@ -70,7 +71,6 @@ private:
     devices::WandDescription wand_;
     devices::DeviceDescription device_;  // of wand_
     haptics::TickParameters parameters_;
-    haptics::FullTick full_;
     bool leads_ = false;
     double lead_sign_ = 1.0, curve_length_m_ = 0.0;
     std::uint64_t ticks_ = 0;

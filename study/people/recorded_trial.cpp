@@ -8,7 +8,7 @@
 
 #include "base/csv.hpp"
 #include "base/text.hpp"
-#include "study/felt/stage_session.hpp"
+#include "study/felt/repeated_stage.hpp"
 #include "study/metrics/even_motion.hpp"
 #include "study/metrics/path.hpp"
 #include "study/metrics/trial_metrics.hpp"

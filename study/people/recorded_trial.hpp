@@ -14,7 +14,7 @@
 
 namespace burin::study {
 
-struct ModelTouch;  // study/felt/stage_session.hpp
+struct ModelTouch;  // study/felt/repeated_stage.hpp
 struct FeltForces;
 
 // Of a trial as it ended and of what the haptic model makes of its motion; null for what is no valid trial. Deviation

@@ -147,7 +147,8 @@ Result<StageReplay> replay_stage(const std::filesystem::path& file, const Protoc
                                  const OnReplayedTick& on_tick) {
     BURIN_TRY(reader, record::RecordReader::open(file.string()));
     BURIN_TRY(parts, check(reader, protocol, protocol_digest, world));
-    StageSession session(protocol, parts.stage, parts.group, world);
+    RepeatedStage repeated(protocol, parts.stage, parts.group, world);
+    StageSession& session = repeated.session();
     const record::RowShape shape = record::shape_of(session.touch().device(), session.touch().parameters().probe);
     if (reader.hands().size() != 1 || !record::can_be_replayed(reader.hands().front().columns, shape))
         return fail(file.string(), "has other columns than a study's recording of this version",
@@ -172,7 +173,7 @@ Result<StageReplay> replay_stage(const std::filesystem::path& file, const Protoc
                 followed = of_session.record(block, row, sample, now_ns);
                 session.follow(followed, done);
             }
-            const haptics::TickRecord& tick = replay.of_session ? followed : session.take(sample, now_ns, done);
+            const haptics::TickRecord& tick = replay.of_session ? followed : repeated.take(sample, now_ns, done);
             ++replay.ticks;
             if (on_tick) on_tick(session, tick);
             if (replay.of_session || replay.difference) continue;

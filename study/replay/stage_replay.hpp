@@ -13,7 +13,7 @@
 
 #include "base/json.hpp"
 #include "record/compare.hpp"
-#include "study/felt/stage_session.hpp"
+#include "study/felt/repeated_stage.hpp"
 
 namespace burin::study {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "study/felt/stage_session.hpp"
+#include "study/felt/repeated_stage.hpp"
 
 namespace burin::study {
 

@@ -4,6 +4,7 @@
 #include "activities/train/simulated_stage.hpp"
 #include "devices/haptic/haptic_device.hpp"
 #include "devices/haptic/wand_description.hpp"
+#include "haptics/tick_record.hpp"
 #include "study/felt/felt_world.hpp"
 #include "study/felt/stage_session.hpp"
 #include "study/felt/stage_touch.hpp"
@@ -37,29 +38,33 @@ struct Went {
 class SimulatedStages : public testing::Test {
 protected:
     void SetUp() override {
-        auto world = study::FeltWorld::create(protocol_.worlds.at(0));
-        ASSERT_TRUE(world);
-        world_ = std::move(*world);
+        auto worlds = felt_worlds(protocol_);
+        ASSERT_TRUE(worlds);
+        worlds_ = std::move(*worlds);
+        world_ = worlds_.at("tube").get();
     }
     Went go(const char* stage, std::size_t group, std::uint64_t seed = 5) {
         study::Random random(seed);
-        const study::Stage& s = *protocol_.stage(stage);
+        const study::StagePlace at{1, 1, protocol_.stage(stage)};
         Went went;
-        went.stage = simulate_stage(
-            {protocol_, s, protocol_.groups[group], s.world.empty() ? nullptr : world_.get(), learner_, population_},
-            random, [&](const haptics::TickRecord& record, study::OperatorAct, const study::StageSession&) {
-                went.forces_N.push_back(record.gate.given.force_device_N);
-                went.places_m.push_back(record.contact.points[0].hip_object_m);
-                went.faults += record.sample.fault != devices::DeviceFault::none ? 1 : 0;
-                went.largest_N = std::max(went.largest_N, glm::length(went.forces_N.back()));
-                went.largest_torque_Nm =
-                    std::max(went.largest_torque_Nm, glm::length(record.gate.given.torque_device_Nm));
-            });
+        auto ended =
+            simulate_stage({protocol_, at, protocol_.groups[group], worlds_, learner_, population_}, random,
+                           [&](const haptics::TickRecord& record, study::OperatorAct, const study::StageSession&) {
+                               went.forces_N.push_back(record.gate.given.force_device_N);
+                               went.places_m.push_back(record.contact.points[0].hip_object_m);
+                               went.faults += record.sample.fault != devices::DeviceFault::none ? 1 : 0;
+                               went.largest_N = std::max(went.largest_N, glm::length(went.forces_N.back()));
+                               went.largest_torque_Nm =
+                                   std::max(went.largest_torque_Nm, glm::length(record.gate.given.torque_device_Nm));
+                           });
+        EXPECT_TRUE(ended) << ended.error().line();
+        if (ended) went.stage = std::move(*ended);
         return went;
     }
 
     study::Protocol protocol_ = thesis_study(12.0);
-    std::unique_ptr<const study::FeltWorld> world_;
+    FeltWorlds worlds_;
+    const study::FeltWorld* world_ = nullptr;
     study::LearnerPopulation population_;
     study::Learner learner_{std::log(0.03), std::log(0.15), false, 0.0};
 };

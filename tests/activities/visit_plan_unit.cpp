@@ -10,6 +10,7 @@
 #include "activities/train/simulated_study.hpp"
 #include "activities/train/stage_on_disk.hpp"
 #include "base/text.hpp"
+#include "study/felt/repeated_stage.hpp"
 #include "study/folder/interruption.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
@@ -218,13 +219,14 @@ TEST_F(VisitPlans, KnowAStageForAsLongAsItsRecordingWentOn) {
     const study::Protocol protocol = study::parse_protocol(kTwoDays).protocol;
     const auto world = study::FeltWorld::create(protocol.worlds[0]);
     ASSERT_TRUE(world);
-    study::StageSession session(protocol, *protocol.stage("test"), protocol.groups[0], **world);
+    study::RepeatedStage stage(protocol, *protocol.stage("test"), protocol.groups[0], **world);
+    const study::StageSession& session = stage.session();
     fs::create_directories(place_ / "s/data/p01");
     auto recording =
         study::StageRecording::create(place_ / "s/data/p01/r.session", session.touch(), {}, kNanosecondsPerSecond);
     ASSERT_TRUE(recording);
     for (Nanoseconds t = 1; t < 100; ++t)
-        (*recording)->take(session.take({}, t * 1'000'000), study::OperatorAct::none, session);
+        (*recording)->take(stage.take({}, t * 1'000'000), study::OperatorAct::none, session);
     ASSERT_TRUE((*recording)->close());
     // The first hour is an hour from now, so that the recording ends an hour before it.
     write(-1.5, Json{{"event", "stage begun"},

@@ -232,7 +232,7 @@ std::vector<std::string> messages_of(const std::vector<DeviceWatch::News>& news)
 
 TEST(SessionHands, ADeviceLostInMidSessionTakesTheForceOffItsHandAlone) {
     SimulatedClock clock;
-    SessionHands hands(16, 1.0);
+    SessionHands hands({4096, 16}, 1.0);
     ASSERT_TRUE(
         hands.open(std::vector<HandToOpen>{{"right", "simulated", {}}, {"left", "simulated-fingers", {}}}, clock));
     const auto causes = [&](int lost) {
@@ -249,7 +249,7 @@ TEST(SessionHands, ADeviceLostInMidSessionTakesTheForceOffItsHandAlone) {
 
 TEST(SessionHands, ADeviceThatIsLostIsToldByNameOnceAndAgainWhenItIsWell) {
     SimulatedClock clock;
-    SessionHands hands(16, 1.0);
+    SessionHands hands({4096, 16}, 1.0);
     ASSERT_TRUE(
         hands.open(std::vector<HandToOpen>{{"right", "simulated", {}}, {"left", "simulated-fingers", {}}}, clock));
     DeviceWatch watch;
@@ -438,7 +438,7 @@ TEST(SessionHands, RefuseDevicesThatCannotBeTold) {
 // Only of a simulated hand does the panel say that the mouse steers it: a glove is on a person's.
 TEST(SessionHands, ThePanelSaysWhoHoldsEachDevice) {
     SimulatedClock clock;
-    SessionHands hands(16, 1.0);
+    SessionHands hands({4096, 16}, 1.0);
     ASSERT_TRUE(hands.open(
         std::vector<HandToOpen>{
             {"right", "simulated", {}}, {"left", "glove:/dev/none", {}}, {"third", "simulated", {}}},

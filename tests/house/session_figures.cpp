@@ -128,7 +128,7 @@ std::vector<Figure> session_figures(const std::filesystem::path& root) {
     count("haptic loops made outside of session/hands/",
           reading.files_with("\\bHapticLoop loop_?[({;]", {"session/hands/", "haptics/", "bench/"}), 0.0);
     count("ticks that study/ computes by itself",
-          reading.files_with("\\bfull_tick\\(", {"haptics/", "bench/", "docs/"}), 1.0);
+          reading.files_with("\\bfull_tick\\(", {"haptics/", "bench/", "docs/"}), 0.0);
     std::vector<std::string> members = private_members(read_text(root / "session/live/session.hpp"), "Session");
     figures.push_back({"members of a Session", static_cast<double>(members.size()), 12.0, std::move(members), ""});
     std::vector<std::string> of_desk = private_members(read_text(root / "desk/live/desk.hpp"), "Desk");

@@ -25,7 +25,7 @@ namespace {
 // Returns what opening these devices says, "opened" where they do.
 std::string opening(const std::vector<std::string>& devices) {
     SimulatedClock clock;
-    SessionHands hands(16, 1.0);
+    SessionHands hands({4096, 16}, 1.0);
     std::vector<HandToOpen> wanted;
     for (std::size_t i = 0; i < devices.size(); ++i) wanted.push_back({"hand" + std::to_string(i), devices[i], {}});
     const auto opened = hands.open(wanted, clock);
@@ -74,7 +74,7 @@ TEST(SessionDevices, TheTargetsThatEachHandsChannelLosesAreCounted) {
     constexpr std::size_t kHands = 3, kMore = 7;
     for (std::size_t flooded = 0; flooded < kHands; ++flooded) {
         SimulatedClock clock;
-        SessionHands hands(16, 1.0);
+        SessionHands hands({4096, 16}, 1.0);
         std::vector<HandToOpen> wanted;
         for (std::size_t i = 0; i < kHands; ++i) wanted.push_back({"hand" + std::to_string(i), "simulated", {}});
         ASSERT_TRUE(hands.open(wanted, clock));
@@ -114,7 +114,7 @@ TEST(SessionDevices, AnActivityTakesHoldByThePartsOfTheHandsThatItNames) {
                                                     {"simulated-fingers", "simulated"},
                                                     {"simulated", "simulated", "simulated-fingers"}}) {
         SimulatedClock clock;
-        SessionHands hands(16, 1.0);
+        SessionHands hands({4096, 16}, 1.0);
         std::vector<HandToOpen> wanted;
         for (std::size_t i = 0; i < devices.size(); ++i) wanted.push_back({"hand" + std::to_string(i), devices[i], {}});
         ASSERT_TRUE(hands.open(wanted, clock));

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "study/felt/stage_session.hpp"
+#include "study/felt/repeated_stage.hpp"
 #include "study/metrics/even_motion.hpp"
 #include "study/metrics/trial_metrics.hpp"
 #include "study/people/recorded_trial.hpp"

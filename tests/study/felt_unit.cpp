@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string>
 
-#include "study/felt/stage_session.hpp"
+#include "study/felt/repeated_stage.hpp"
 #include "study/felt/tube_mesh.hpp"
 #include "study/people/learner.hpp"
 #include "study/people/recorded_trial.hpp"
@@ -172,12 +172,13 @@ TEST(StudyDeviation, IsFlaggedWhereTheHandGoesAroundTheTube) {
 // touches.
 haptics::TickRecord pressed(const Protocol& protocol, const Stage& stage, const Group& group, const FeltWorld& world,
                             double off_m = 0.02) {
-    StageTouch touch(protocol, stage, group, world);
+    RepeatedTouch repeated(protocol, stage, group, world);
+    const StageTouch& touch = repeated.touch();
     haptics::TickRecord last;
     for (std::size_t i = 0; i < 2500; ++i) {
         const double share = std::min(1.0, static_cast<double>(i) / 2000.0);
-        last = touch.tick(sample_at(touch, beside(world.world(), 0.5 * share, off_m * share, 0.0), i),
-                          static_cast<Nanoseconds>(i + 1) * kTick_ns);
+        last = repeated.tick(sample_at(touch, beside(world.world(), 0.5 * share, off_m * share, 0.0), i),
+                             static_cast<Nanoseconds>(i + 1) * kTick_ns);
     }
     return last;
 }
@@ -224,7 +225,8 @@ TEST(StudyTouch, LedTrainingFadesAndLeadsForthAndBack) {
     stage.ends_after_s = 60.0;
     const auto world = FeltWorld::create(protocol.worlds.at(0));
     ASSERT_TRUE(world);
-    StageTouch touch(protocol, stage, protocol.groups[0], **world);
+    RepeatedTouch repeated(protocol, stage, protocol.groups[0], **world);
+    const StageTouch& touch = repeated.touch();
     ASSERT_TRUE(touch.leads());
     EXPECT_FALSE(StageTouch(protocol, stage, protocol.groups[1], **world).leads());
     // A hand that goes wherever it is led: to the attracting point of the tick before.
@@ -233,7 +235,7 @@ TEST(StudyTouch, LedTrainingFadesAndLeadsForthAndBack) {
     std::size_t came_back_at = 0;
     for (std::size_t i = 0; i < 30'000; ++i) {
         const haptics::TickRecord& record =
-            touch.tick(sample_at(touch, middle, i), static_cast<Nanoseconds>(i + 1) * kTick_ns);
+            repeated.tick(sample_at(touch, middle, i), static_cast<Nanoseconds>(i + 1) * kTick_ns);
         if (i == 10) stiffness_first = touch.parameters().guidance.stiffness_N_per_m;
         EXPECT_LE(glm::length(record.gate.given.force_device_N), protocol.force_limit_N + 1e-9);
         middle += 0.0001 * record.wanted.force_device_N;
@@ -252,14 +254,15 @@ TEST(StudySession, SetsTheProxiesOnTheAxisAtTheStartCap) {
     const auto world = FeltWorld::create(protocol.worlds.at(0));
     ASSERT_TRUE(world);
     const StudyWorld& tube = (*world)->world();
-    StageSession session(protocol, *protocol.stage("test"), protocol.groups[0], **world);
+    RepeatedStage stage(protocol, *protocol.stage("test"), protocol.groups[0], **world);
+    const StageSession& session = stage.session();
     // Begins far outside, beside the tube's middle, and only then comes to the start cap.
     std::size_t tick = 0;
     const auto move = [&](const Vec3& from, const Vec3& to, std::size_t ticks) {
         for (std::size_t i = 0; i < ticks; ++i, ++tick) {
             const Vec3 at = from + (static_cast<double>(i) / static_cast<double>(ticks)) * (to - from);
             const devices::DeviceSample sample = sample_at(session.touch(), at, tick);
-            session.take(sample, sample.time_ns);
+            stage.take(sample, sample.time_ns);
         }
     };
     const Vec3 start = tube.spine_m.front() + 0.5 * tube.cap_depth_m * start_cap(tube).z;
@@ -271,7 +274,7 @@ TEST(StudySession, SetsTheProxiesOnTheAxisAtTheStartCap) {
     }
     EXPECT_EQ(session.state().phase, StagePhase::running);
     const devices::DeviceSample sample = sample_at(session.touch(), beside(tube, 0.3, 0.0, 0.0), tick);
-    const haptics::TickRecord& record = session.take(sample, sample.time_ns);
+    const haptics::TickRecord& record = stage.take(sample, sample.time_ns);
     for (std::size_t p = 0; p < 2; ++p)
         EXPECT_LT(glm::distance(record.contact.points[p].proxy_object_m, record.contact.points[p].hip_object_m), 1e-6);
 }

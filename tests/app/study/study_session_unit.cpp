@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "activities/train/live_visit.hpp"
+#include "activities/train/participant_session.hpp"
 #include "activities/train/study_activity.hpp"
 #include "desk/live/desk.hpp"
 #include "desk/run/session.hpp"

@@ -20,7 +20,7 @@ namespace {
 // Returns what so many turns of the loop have cost its thread, while their ticks are streamed.
 test::RealtimeCounts cost_of_turns(StandInLsl& library, int turns, StreamFigures& figures) {
     MonotonicClock clock;
-    SessionHands hands(4096, 1.0);
+    SessionHands hands({4096, 4096}, 1.0);
     const std::array wanted{HandToOpen{"right", "simulated", {}}, HandToOpen{"left", "simulated", {}}};
     EXPECT_TRUE(hands.open(wanted, clock));
     StreamPlan plan;
