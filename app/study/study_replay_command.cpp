@@ -13,8 +13,10 @@ namespace burin::app {
 namespace {
 
 void tell_replays(const study::FolderReplay& replays) {
-    std::printf("%zu recordings, %llu ticks of %zu columns through the haptic tick again", replays.recordings,
+    std::printf("%zu recordings, %llu ticks of %zu columns", replays.recordings,
                 static_cast<unsigned long long>(replays.ticks), replays.columns);
+    if (const std::size_t again = replays.recordings - replays.of_session; again > 0)
+        std::printf("; %zu of them went through the haptic tick again", again);
     if (replays.interrupted > 0) std::printf("; %zu of them end where they were interrupted", replays.interrupted);
     if (replays.of_session > 0)
         std::printf(
